@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+namespace millstudy::core {
+
+/// Number of threads that 0 ("all") means here.
+inline int available_threads() { return oneapi::tbb::this_task_arena::max_concurrency(); }
+
+/// The only parallel loop of the engine: results are computed in any order on any thread and
+/// consumed strictly in order, one at a time. So what consume sees does not depend on the number
+/// of threads.
+///
+/// At most 4 results a thread are alive at once, whatever the count: memory is bounded by what is
+/// in flight. An exception from either function ends the loop and is thrown here.
+///
+/// @param count    items 0 .. count - 1
+/// @param threads  >= 1; 0 is all
+/// @param stop     set from anywhere: no further item is started, those in flight are consumed
+/// @param compute  Result compute(int64 i), called concurrently
+/// @param consume  void consume(int64 i, Result&&), called for i = 0, 1, 2, ...
+/// @return number of items consumed
+template <class Compute, class Consume>
+std::int64_t ordered_parallel(std::int64_t count, int threads, const std::atomic<bool>& stop,
+                              const Compute& compute, const Consume& consume) {
+  namespace tbb = oneapi::tbb;
+  using Result = decltype(compute(std::int64_t{}));
+  using Item = std::pair<std::int64_t, Result>;
+  if (threads <= 0) threads = available_threads();
+  std::int64_t started = 0;
+  std::int64_t consumed = 0;
+  const auto next = [&](tbb::flow_control& control) -> std::int64_t {
+    if (started >= count || stop.load(std::memory_order_relaxed)) {
+      control.stop();
+      return 0;
+    }
+    return started++;
+  };
+  const auto run = [&](std::int64_t i) -> Item { return {i, compute(i)}; };
+  const auto finish = [&](Item item) {
+    consume(item.first, std::move(item.second));
+    ++consumed;
+  };
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        4 * static_cast<std::size_t>(threads),
+        tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order, next) &
+            tbb::make_filter<std::int64_t, Item>(tbb::filter_mode::parallel, run) &
+            tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, finish));
+  });
+  return consumed;
+}
+
+}  // namespace millstudy::core

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace millstudy::core {
+
+/// A bounded memo of expensive values, shared between threads: the same key gives the same value,
+/// computed again only if it was dropped meanwhile. What is in the cache never changes a result.
+///
+/// Two threads that miss the same key at once both compute; neither waits for the other.
+template <class T>
+class SharedCache {
+ public:
+  explicit SharedCache(std::size_t capacity) : capacity_(capacity) {}
+
+  /// The value for the key; make() is called outside the lock on a miss.
+  template <class Make>
+  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
+    if (std::shared_ptr<const T> found = find(key)) return found;
+    auto made = std::make_shared<const T>(make());
+    insert(key, made);
+    return made;
+  }
+
+ private:
+  using Entry = std::pair<std::string, std::shared_ptr<const T>>;
+
+  std::shared_ptr<const T> find(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const auto at = index_.find(key);
+    if (at == index_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, at->second);
+    return at->second->second;
+  }
+
+  void insert(const std::string& key, std::shared_ptr<const T> value) {
+    const std::lock_guard lock(mutex_);
+    if (index_.contains(key)) return;
+    entries_.emplace_front(key, std::move(value));
+    index_.emplace(key, entries_.begin());
+    if (entries_.size() <= capacity_) return;
+    index_.erase(entries_.back().first);
+    entries_.pop_back();
+  }
+
+  std::size_t capacity_;
+  std::mutex mutex_;
+  std::list<Entry> entries_;  // most recently used first
+  std::unordered_map<std::string, typename std::list<Entry>::iterator> index_;
+};
+
+}  // namespace millstudy::core
