@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <atomic>
 #include <cstdint>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 #include <utility>
 
 namespace millstudy::core {
 
 /// Number of threads that 0 ("all") means here.
-inline int available_threads() { return oneapi::tbb::this_task_arena::max_concurrency(); }
+inline int available_threads() {
+  return oneapi::tbb::this_task_arena::max_concurrency();
+}
 
 /// The only parallel loop of the engine: results are computed in any order on any thread and
 /// consumed strictly in order, one at a time. So what consume sees does not depend on the number

@@ -9,17 +9,35 @@ namespace millstudy::core {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-constexpr double rad_from_deg(double deg) { return deg * (kPi / 180.0); }
-constexpr double deg_from_rad(double rad) { return rad * (180.0 / kPi); }
+constexpr double rad_from_deg(double deg) {
+  return deg * (kPi / 180.0);
+}
+constexpr double deg_from_rad(double rad) {
+  return rad * (180.0 / kPi);
+}
 /// Spindle speed: revolutions per minute to revolutions per second.
-constexpr double rev_per_s_from_rpm(double rpm) { return rpm / 60.0; }
-constexpr double mm_per_s_from_mm_per_min(double feed_rate) { return feed_rate / 60.0; }
-constexpr double mm_per_min_from_mm_per_s(double feed_rate) { return feed_rate * 60.0; }
-constexpr double mm_from_um(double um) { return um * 1e-3; }
-constexpr double um_from_mm(double mm) { return mm * 1e3; }
+constexpr double rev_per_s_from_rpm(double rpm) {
+  return rpm / 60.0;
+}
+constexpr double mm_per_s_from_mm_per_min(double feed_rate) {
+  return feed_rate / 60.0;
+}
+constexpr double mm_per_min_from_mm_per_s(double feed_rate) {
+  return feed_rate * 60.0;
+}
+constexpr double mm_from_um(double um) {
+  return um * 1e-3;
+}
+constexpr double um_from_mm(double mm) {
+  return mm * 1e3;
+}
 /// Torque: N mm to N m.
-constexpr double newton_metre(double newton_mm) { return newton_mm * 1e-3; }
+constexpr double newton_metre(double newton_mm) {
+  return newton_mm * 1e-3;
+}
 /// Material removal rate: mm3/s to cm3/min.
-constexpr double cm3_per_min_from_mm3_per_s(double rate) { return rate * 0.06; }
+constexpr double cm3_per_min_from_mm3_per_s(double rate) {
+  return rate * 0.06;
+}
 
 }  // namespace millstudy::core

@@ -2,7 +2,6 @@
 #include "core/ordered_parallel.h"
 
 #include <gtest/gtest.h>
-
 #include <stdexcept>
 #include <vector>
 

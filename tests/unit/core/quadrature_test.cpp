@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/quadrature.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 namespace millstudy::core {
 namespace {

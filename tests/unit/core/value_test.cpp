@@ -15,7 +15,8 @@ TEST(Value, FindsMembersOfTablesOnly) {
 }
 
 TEST(InputError, HasOneLineForEachFault) {
-  const InputError error({{{"a.toml", 3}, "first"}, {{"a.toml", 0}, "second\nline"}, {{}, "third"}});
+  const InputError error(
+      {{{"a.toml", 3}, "first"}, {{"a.toml", 0}, "second\nline"}, {{}, "third"}});
   EXPECT_STREQ(error.what(), "a.toml:3: first\na.toml: second?line\nthird");
 }
 

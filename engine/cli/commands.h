@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace millstudy::cli {
+
+/// Exit codes of the program.
+inline constexpr int kDone = 0;
+inline constexpr int kInternalError = 1;
+inline constexpr int kBadInput = 2;
+inline constexpr int kPointsFailed = 3;
+inline constexpr int kInterrupted = 4;
+
+struct StudyOptions {
+  std::string file;
+  std::vector<std::string> overrides;  ///< key=value
+  int threads = 0;                     ///< 0: all
+  bool json = false;
+};
+
+struct RunSettings {
+  std::string output;  ///< empty: <study.name>.h5
+  bool fresh = false;
+  bool quiet = false;
+  std::int64_t block_size = 0;
+};
+
+struct ExportOptions {
+  std::string result;
+  std::string output;
+};
+
+// Each verb prints its result to stdout and returns the exit code; bad input is thrown.
+int plan(const StudyOptions& options);
+int run(const StudyOptions& options, const RunSettings& settings);
+int export_result(const ExportOptions& options);
+int print_keys(const std::string& kind, bool markdown);
+
+}  // namespace millstudy::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "core/error.h"
+#include "study/study.h"
+
+namespace millstudy::cli {
+
+int print_keys(const std::string& kind, bool markdown) {
+  bool found = false;
+  for (const study::Kind* known : study::kinds()) {
+    if (!kind.empty() && kind != known->name) continue;
+    if (found) fmt::print("\n");
+    fmt::print("{}", study::key_reference(*known, markdown));
+    found = true;
+  }
+  if (!found) throw core::InputError(fmt::format("there is no kind \"{}\"", kind));
+  return kDone;
+}
+
+}  // namespace millstudy::cli

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/version.h"
+#include "core/error.h"
+#include "io/resource_error.h"
+
+namespace {
+
+using namespace millstudy;
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const core::InputError& error) {
+    for (const core::Fault& fault : error.faults()) {
+      std::fprintf(stderr, "%s\n", to_string(fault).c_str());
+    }
+    return cli::kBadInput;
+  } catch (const io::ResourceError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return cli::kInterrupted;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "out of memory: use fewer threads or smaller points\n");
+    return cli::kInterrupted;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "internal error: %s\n", error.what());
+    return cli::kInternalError;
+  }
+}
+
+void add_study_options(CLI::App& verb, cli::StudyOptions& study) {
+  verb.add_option("study", study.file, "study file (TOML)")->required()->type_name("STUDY.toml");
+  verb.add_option("--set", study.overrides, "override a key of the study; repeatable")
+      ->type_name("key=value")
+      ->allow_extra_args(false);
+  verb.add_option("--threads", study.threads, "number of threads (default: all)")
+      ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("millstudy: studies of milling, in parallel, to HDF5", "millstudy");
+  app.set_version_flag("--version", cli::version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 done but some points failed,\n"
+      "4 interrupted or out of a resource.");
+
+  cli::StudyOptions study;
+  CLI::App* plan = app.add_subcommand("plan", "check a study; print points, time and file size");
+  add_study_options(*plan, study);
+  plan->add_flag("--json", study.json, "print JSON");
+
+  cli::RunSettings settings;
+  CLI::App* run = app.add_subcommand("run", "compute a study into a result file");
+  add_study_options(*run, study);
+  run->add_option("-o,--output", settings.output, "result file (default: <study.name>.h5 here)")
+      ->type_name("R.h5");
+  run->add_flag("--fresh", settings.fresh, "compute again; an existing result is moved aside");
+  run->add_option("--block-size", settings.block_size, "points per block (default: chosen)")
+      ->check(CLI::Range(1, 1'000'000));
+  run->add_flag("--quiet", settings.quiet, "no progress");
+  run->add_flag("--json", study.json, "print the summary as JSON");
+
+  cli::ExportOptions table;
+  CLI::App* exporting = app.add_subcommand("export", "write a result as a table");
+  exporting->add_option("result", table.result, "result file")->required()->type_name("R.h5");
+  exporting->add_option("-o,--output", table.output, "table: .csv or .npy")->required();
+
+  std::string kind;
+  bool markdown = false;
+  CLI::App* keys = app.add_subcommand("keys", "every key of a study file, by kind");
+  keys->add_option("kind", kind, "one kind only");
+  keys->add_flag("--markdown", markdown, "as Markdown tables");
+  run->footer("Keys of the study file: millstudy keys");
+  plan->footer("Keys of the study file: millstudy keys");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? cli::kDone : cli::kBadInput;
+  }
+  return guarded([&] {
+    if (*plan) return cli::plan(study);
+    if (*run) return cli::run(study, settings);
+    if (*exporting) return cli::export_result(table);
+    return cli::print_keys(kind, markdown);
+  });
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "cli/open_study.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+#include "io/sha256.h"
+#include "io/toml_reader.h"
+
+namespace millstudy::cli {
+namespace {
+
+/// A value as TOML, or, where it is not TOML, as the string it is: --set cut.milling=slot.
+core::Value parse_override(const std::string& text) {
+  const std::string name = "--set " + text;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw core::InputError({{{name, 0}, "must be key=value"}});
+  }
+  try {
+    return io::parse_toml(text, name);
+  } catch (const core::InputError&) {
+    std::string quoted;
+    for (const char c : text.substr(equals + 1)) {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+    return io::parse_toml(text.substr(0, equals) + "= \"" + quoted + '"', name);
+  }
+}
+
+/// The whole override is the place: its lines mean nothing.
+void forget_lines(core::Value& value) {
+  value.place.line = 0;
+  if (value.is_table()) {
+    for (core::Member& member : value.table()) forget_lines(member.value);
+  }
+  if (auto* array = std::get_if<core::Value::Array>(&value.data)) {
+    for (core::Value& item : *array) forget_lines(item);
+  }
+}
+
+/// Puts what the override says over what the file says; tables are merged, all else is replaced.
+void merge(core::Value& target, core::Value&& change) {
+  if (!target.is_table() || !change.is_table()) {
+    target = std::move(change);
+    return;
+  }
+  for (core::Member& member : change.table()) {
+    if (core::Value* present = target.find(member.key)) {
+      const bool range = present->is_table() && member.value.is_table() &&
+                         (present->find("from") || member.value.find("from"));
+      if (range) {
+        *present = std::move(member.value);
+      } else {
+        merge(*present, std::move(member.value));
+      }
+    } else {
+      target.table().push_back(std::move(member));
+    }
+  }
+}
+
+/// An axis decides the values of its key; a --set on the key itself would do nothing.
+void refuse_swept(const study::Study& study, const core::Value& change, const std::string& prefix,
+                  const std::string& text) {
+  if (!change.is_table()) return;
+  for (const core::Member& member : change.table()) {
+    const std::string path = prefix.empty() ? member.key : prefix + '.' + member.key;
+    const bool swept = std::any_of(study.axes.begin(), study.axes.end(),
+                                   [&](const study::Axis& axis) { return axis.path == path; });
+    if (swept) {
+      throw core::InputError(
+          {{{"--set " + text, 0},
+            fmt::format("{0} is an axis of the sweep; set the axis instead: --set "
+                        "'sweep.axes.\"{0}\"=[...]'",
+                        path)}});
+    }
+    refuse_swept(study, member.value, path, text);
+  }
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+OpenStudy open_study(const StudyOptions& options) {
+  core::Value root = io::read_toml(options.file);
+  std::vector<core::Value> changes;
+  for (const std::string& text : options.overrides) {
+    core::Value change = parse_override(text);
+    forget_lines(change);
+    changes.push_back(change);
+    merge(root, std::move(change));
+  }
+  OpenStudy open{study::resolve(root, io::read_toml), read_text(options.file), ""};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    refuse_swept(open.study, changes[i], "", options.overrides[i]);
+  }
+  open.hash = io::sha256_hex(open.study.canonical);
+  return open;
+}
+
+}  // namespace millstudy::cli

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <filesystem>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "cli/open_study.h"
+#include "cli/progress.h"
+#include "cli/stop_signal.h"
+#include "cli/version.h"
+#include "core/error.h"
+#include "core/ordered_parallel.h"
+#include "io/result_reader.h"
+#include "io/result_writer.h"
+
+namespace millstudy::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Passes blocks on and counts why points failed.
+class FailureTally : public sweep::Sink {
+ public:
+  explicit FailureTally(std::unique_ptr<sweep::Sink> sink) : sink_(std::move(sink)) {}
+
+  void write(const sweep::Block& block) override {
+    constexpr std::size_t kMostReasons = 1000;
+    for (const std::string& reason : block.failures) {
+      if (reason.empty()) continue;
+      const bool room = counts_.size() < kMostReasons || counts_.contains(reason);
+      ++counts_[room ? reason : "other reasons"];
+    }
+    sink_->write(block);
+  }
+  void finish(const std::vector<sweep::Attribute>& attributes) override {
+    sink_->finish(attributes);
+  }
+  const std::map<std::string, std::int64_t>& counts() const { return counts_; }
+
+ private:
+  std::unique_ptr<sweep::Sink> sink_;
+  std::map<std::string, std::int64_t> counts_;
+};
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+/// Where the result came from.
+std::vector<sweep::Attribute> provenance(const OpenStudy& open, const StudyOptions& options,
+                                         int threads) {
+  const Build made = build();
+  std::string overrides;
+  for (const std::string& text : options.overrides) overrides += text + '\n';
+  return {
+      {"title", open.study.description.empty() ? open.study.name : open.study.description},
+      {"name", open.study.name},
+      {"kind", std::string(open.study.kind->name)},
+      {"schema_version", std::int64_t{1}},
+      {"millstudy_version", made.version},
+      {"git_revision", made.git_revision},
+      {"git_dirty", std::int64_t{made.git_dirty}},
+      {"study", open.text},
+      {"overrides", overrides},
+      {"study_hash", open.hash},
+      {"isa", made.isa},
+      {"compiler", made.compiler},
+      {"created", utc_now()},
+      {"host", host_name()},
+      {"threads", std::int64_t{threads}},
+  };
+}
+
+struct Outcome {
+  std::string status;  ///< done, or already done
+  std::string result;
+  std::int64_t ok = 0;
+  std::int64_t failed = 0;
+  std::int64_t skipped = 0;
+  double seconds = 0.0;
+  std::int64_t threads = 0;
+  std::string hash;
+};
+
+int print_outcome(const Outcome& outcome, const StudyOptions& options,
+                  const std::map<std::string, std::int64_t>& failures) {
+  const std::int64_t points = outcome.ok + outcome.failed + outcome.skipped;
+  if (options.json) {
+    const nlohmann::json json = {
+        {"status", outcome.status},   {"result", outcome.result},   {"points", points},
+        {"ok", outcome.ok},           {"failed", outcome.failed},   {"skipped", outcome.skipped},
+        {"seconds", outcome.seconds}, {"threads", outcome.threads}, {"study_hash", outcome.hash},
+    };
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}: {} points, {} ok, {} failed, {} skipped\n", outcome.status, count_text(points),
+               count_text(outcome.ok), count_text(outcome.failed), count_text(outcome.skipped));
+    for (const auto& [reason, count] : failures) {
+      fmt::print("  {} failed: {}\n", count_text(count), reason);
+    }
+    fmt::print(
+        "time:   {} on {} thread{}, {} points/s\n", duration_text(outcome.seconds), outcome.threads,
+        outcome.threads == 1 ? "" : "s",
+        count_text(static_cast<std::int64_t>(static_cast<double>(points) / outcome.seconds)));
+    std::error_code error;
+    const auto bytes = static_cast<double>(fs::file_size(outcome.result, error));
+    fmt::print("result: {} ({})\n", outcome.result, bytes_text(error ? 0.0 : bytes));
+  }
+  return outcome.failed > 0 ? kPointsFailed : kDone;
+}
+
+/// A finished result of this study, if the file is one.
+/// @throws core::InputError if it is anything else
+std::optional<Outcome> finished_result(const std::string& path, const OpenStudy& open) {
+  const std::optional<io::ResultSummary> summary = io::read_result_summary(path);
+  if (!summary) return std::nullopt;
+  if (summary->text("study_hash") != open.hash) {
+    throw core::InputError(
+        {{{path, 0},
+          "holds the result of another study; use --fresh to compute this one (the old "
+          "result is moved aside), or -o for another file"}});
+  }
+  Outcome outcome{"already done", path, 0, 0, 0, 0.0, 0, open.hash};
+  outcome.ok = summary->integer("points_ok").value_or(0);
+  outcome.failed = summary->integer("points_failed").value_or(0);
+  outcome.skipped = summary->integer("points_skipped").value_or(0);
+  outcome.threads = summary->integer("threads").value_or(0);
+  const auto time = summary->attributes.find("wall_time_s");
+  if (time != summary->attributes.end() && std::holds_alternative<double>(time->second)) {
+    outcome.seconds = std::get<double>(time->second);
+  }
+  return outcome;
+}
+
+/// Makes room for a fresh result: slot.h5 becomes slot.previous-1.h5, or the next free number.
+void move_aside(const fs::path& path) {
+  if (!fs::exists(path)) return;
+  for (int number = 1;; ++number) {
+    fs::path aside = path;
+    aside.replace_filename(
+        fmt::format("{}.previous-{}{}", path.stem().string(), number, path.extension().string()));
+    if (fs::exists(aside)) continue;
+    fs::rename(path, aside);
+    fmt::print(stderr, "the old result is now {}\n", aside.string());
+    return;
+  }
+}
+
+}  // namespace
+
+int run(const StudyOptions& options, const RunSettings& settings) {
+  const OpenStudy open = open_study(options);
+  const std::string path = settings.output.empty() ? open.study.name + ".h5" : settings.output;
+  if (!settings.fresh) {
+    if (const auto outcome = finished_result(path, open)) {
+      return print_outcome(*outcome, options, {});
+    }
+  }
+  const int threads = options.threads > 0 ? options.threads : core::available_threads();
+  sweep::Layout layout = study::layout(open.study);
+  layout.attributes = provenance(open, options, threads);
+  FailureTally sink(io::make_result_writer(path, layout));
+
+  ProgressDisplay display(settings.quiet);
+  const std::atomic<bool>& stop = stop_on_signal();
+  const sweep::Progress progress =
+      sweep::run_blocks(layout, study::block_evaluator(open.study), sink,
+                        {.threads = threads,
+                         .block_size = settings.block_size,
+                         .stop = &stop,
+                         .progress = [&](const sweep::Progress& now) { display.show(now); }});
+  if (progress.done() < progress.points) {
+    fmt::print(stderr, "\ninterrupted after {} of {} points: nothing was kept\n",
+               count_text(progress.done()), count_text(progress.points));
+    return kInterrupted;
+  }
+  if (settings.fresh) move_aside(path);
+  sink.finish({{"points_ok", progress.ok},
+               {"points_failed", progress.failed},
+               {"points_skipped", progress.skipped},
+               {"wall_time_s", progress.seconds}});
+  return print_outcome({"done", path, progress.ok, progress.failed, progress.skipped,
+                        progress.seconds, threads, open.hash},
+                       options, sink.counts());
+}
+
+}  // namespace millstudy::cli

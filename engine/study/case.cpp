@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "study/case.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "cutter/envelope.h"
+
+namespace millstudy::study {
+
+double feed_rate(const Case& point) {
+  if (point.cut.feed_rate) return *point.cut.feed_rate;
+  return *point.cut.feed_per_tooth * point.cut.spindle_speed * point.cutter.flutes;
+}
+
+double feed_per_tooth(const Case& point) {
+  if (point.cut.feed_per_tooth) return *point.cut.feed_per_tooth;
+  return *point.cut.feed_rate / (point.cut.spindle_speed * point.cutter.flutes);
+}
+
+force::Engagement engagement(const Case& point) {
+  const CutSection& cut = point.cut;
+  if (!cut.milling) {
+    if (*cut.exit_angle <= *cut.entry_angle) {
+      throw core::CaseError("cut.exit_deg must be > cut.entry_deg");
+    }
+    return {*cut.entry_angle, *cut.exit_angle, cut.axial_depth};
+  }
+  if (*cut.milling == Milling::slot) return force::slot(cut.axial_depth);
+  if (*cut.radial_depth > point.cutter.diameter) {
+    throw core::CaseError("cut.radial_depth_mm must be <= cutter.diameter_mm");
+  }
+  const double radius = 0.5 * point.cutter.diameter;
+  return *cut.milling == Milling::up
+             ? force::up_milling(radius, *cut.radial_depth, cut.axial_depth)
+             : force::down_milling(radius, *cut.radial_depth, cut.axial_depth);
+}
+
+double cutting_speed(const Case& point) {
+  return core::kPi * point.cutter.diameter * point.cut.spindle_speed;
+}
+
+double radial_immersion(const Case& point) {
+  const force::Engagement arc = engagement(point);
+  return 0.5 * (std::cos(arc.entry_angle) - std::cos(arc.exit_angle));
+}
+
+double material_removal_rate(const Case& point) {
+  // Width swept at height z is r(z) (cos entry - cos exit) = 2 r(z) immersion.
+  return feed_rate(point) * 2.0 * radial_immersion(point) *
+         cutter::section_area(point.cutter, point.cut.axial_depth);
+}
+
+}  // namespace millstudy::study

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "study/kind.h"
+
+namespace millstudy::study {
+namespace {
+
+void check_feed(const Given& given, Faults& faults) {
+  const bool rate = given.has("cut.feed_rate_mm_per_min");
+  const bool tooth = given.has("cut.feed_per_tooth_mm");
+  if (rate && tooth) {
+    faults.add(given.place({"cut.feed_per_tooth_mm"}),
+               "cut.feed_per_tooth_mm contradicts cut.feed_rate_mm_per_min: give one of them");
+  } else if (!rate && !tooth) {
+    faults.add(given.file,
+               "cut.feed_rate_mm_per_min [mm/min] or cut.feed_per_tooth_mm [mm] is missing");
+  }
+}
+
+void check_engagement_keys(const Given& given, const Case& base, Faults& faults) {
+  const bool entry = given.has("cut.entry_deg");
+  const bool exit = given.has("cut.exit_deg");
+  const bool radial = given.has("cut.radial_depth_mm");
+  if (given.has("cut.milling")) {
+    if (entry || exit) {
+      faults.add(given.place({"cut.entry_deg", "cut.exit_deg"}),
+                 "cut.entry_deg and cut.exit_deg contradict cut.milling: give one or the other");
+    }
+    if (given.swept("cut.milling")) {
+      if (!radial) {
+        faults.add(given.place({"cut.milling"}),
+                   "cut.radial_depth_mm [mm] is missing: up and down milling need it");
+      }
+    } else if (base.cut.milling == Milling::slot && radial) {
+      faults.add(given.place({"cut.radial_depth_mm"}),
+                 "cut.radial_depth_mm contradicts cut.milling = \"slot\": leave it out");
+    } else if (base.cut.milling != Milling::slot && !radial) {
+      faults.add(given.place({"cut.milling"}),
+                 "cut.radial_depth_mm [mm] is missing: up and down milling need it");
+    }
+  } else if (!entry || !exit) {
+    faults.add(given.place({"cut.entry_deg", "cut.exit_deg"}),
+               "cut.milling is missing: slot, up or down; or both cut.entry_deg and cut.exit_deg");
+  } else if (radial) {
+    faults.add(given.place({"cut.radial_depth_mm"}),
+               "cut.radial_depth_mm contradicts cut.entry_deg and cut.exit_deg: leave it out");
+  }
+}
+
+}  // namespace
+
+void check_cut(const Given& given, const Case& base, Faults& faults) {
+  check_feed(given, faults);
+  Faults keys;
+  check_engagement_keys(given, base, keys);
+  const bool fine = faults.collect([&] { keys.throw_if_any(); });
+  if (!fine || given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg",
+                                "cut.exit_deg", "cutter.diameter_mm", "cutter.cutter_file"})) {
+    return;
+  }
+  try {
+    engagement(base);
+  } catch (const core::CaseError& error) {
+    faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg"}), error.what());
+  }
+}
+
+void check_numerics(const Given& given, const Case& base, Faults& faults) {
+  constexpr double kMostDiscs = 1e9;  // a revolution of these takes seconds a tooth
+  if (given.any_swept({"numerics.rule", "numerics.discs", "numerics.angular_steps"})) return;
+  if (base.edge_rule.rule != force::Rule::discs) return;
+  if (static_cast<double>(base.edge_rule.discs) * base.angular_steps <= kMostDiscs) return;
+  faults.add(given.place({"numerics.discs", "numerics.angular_steps"}),
+             fmt::format("numerics.discs x numerics.angular_steps must be <= {:.0e}", kMostDiscs));
+}
+
+}  // namespace millstudy::study

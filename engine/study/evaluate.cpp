@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+
+#include "study/study.h"
+
+namespace millstudy::study {
+namespace {
+
+using sweep::Block;
+using sweep::Status;
+
+void apply_axes(const Study& study, std::span<const std::int64_t> indices, Case& point) {
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const Axis& axis = study.axes[a];
+    if (axis.key->numeric()) {
+      apply(*axis.key, axis.numbers[indices[a]], point);
+    } else {
+      for (const Assignment& assignment : axis.settings[indices[a]]) {
+        apply(*assignment.key, assignment.setting, point);
+      }
+    }
+  }
+}
+
+bool within(const Limit& limit, const Case& point) {
+  const std::optional<double> value = limit.value(point);
+  // Bounds are inclusive, for a computed quantity to rounding: 0.2 as 580 / (14500 x 2 / 10)
+  // counts.
+  constexpr double kRounding = 1e-12;
+  if (!value) return false;
+  return (!limit.min || *value >= *limit.min - kRounding * std::abs(*limit.min)) &&
+         (!limit.max || *value <= *limit.max + kRounding * std::abs(*limit.max));
+}
+
+/// Reason why the point has no result, or empty.
+std::string evaluate_point(const EvaluatePoint& evaluate, const Case& point, std::span<double> row,
+                           sweep::Trace* trace) {
+  try {
+    evaluate(point, row, trace);
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  const bool finite =
+      std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); });
+  return finite ? "" : "a result is not finite";
+}
+
+}  // namespace
+
+Case case_at(const Study& study, std::int64_t point) {
+  std::vector<std::int64_t> indices(study.axes.size());
+  study.space.indices(point, indices);
+  Case result = study.base;
+  apply_axes(study, indices, result);
+  return result;
+}
+
+sweep::EvaluateBlock block_evaluator(const Study& study) {
+  const auto shared = std::make_shared<const Study>(study);
+  return [shared, evaluate = study.kind->make_evaluator()](Block& block) {
+    std::vector<std::int64_t> indices(shared->axes.size());
+    std::vector<double> row(shared->kind->columns.size());
+    Case point = shared->base;  // every point of the block sets the same keys
+    for (std::int64_t i = 0; i < block.count; ++i) {
+      shared->space.indices(block.first + i, indices);
+      apply_axes(*shared, indices, point);
+      const bool inside = [&] {
+        try {
+          return std::all_of(shared->limits.begin(), shared->limits.end(),
+                             [&](const Limit& limit) { return within(limit, point); });
+        } catch (const core::CaseError&) {
+          return true;  // the quantity cannot be computed: let the point fail with its reason
+        }
+      }();
+      if (!inside) {
+        block.status[i] = Status::skipped;
+        continue;
+      }
+      sweep::Trace* trace = block.traces.empty() ? nullptr : &block.traces[i];
+      block.failures[i] = evaluate_point(evaluate, point, row, trace);
+      if (block.failures[i].empty()) {
+        block.status[i] = Status::ok;
+        for (std::size_t c = 0; c < row.size(); ++c) block.value(c, i) = row[c];
+      } else {
+        block.status[i] = Status::failed;
+        if (trace) *trace = {};
+      }
+    }
+  };
+}
+
+}  // namespace millstudy::study

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/value.h"
+#include "study/case.h"
+#include "study/setting.h"
+
+namespace millstudy::study {
+
+enum class KeyType { number, integer, choice, flag, text, file };
+
+/// Allowed numbers: from low to high, each end inclusive unless it is open.
+struct Range {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+  bool low_open = false;
+  bool high_open = false;
+
+  bool contains(double value) const;
+  /// The limit that a value outside breaks: "> 0" or "<= 1000000".
+  std::string broken_by(double value) const;
+  /// Both limits, for the key reference: "> 0, <= 1000000"; empty where there is none.
+  std::string words() const;
+};
+
+/// What a key has when nobody gives it.
+struct Required {};
+struct Optional {};
+using Default = std::variant<Required, Optional, double, std::string_view>;
+
+/// The place in a case that a key sets. A choice sets an enumeration whose values are declared in
+/// the order of the key's choices.
+using Field = std::variant<double*, std::optional<double>*, int*, CurvePtr*, path::Method*,
+                           cutter::Shape*, force::Rule*, std::optional<Milling>*>;
+
+/// One key of a study: the only place that says what it is called, what it may be and what it
+/// sets. Validation, the key reference, sweep axes and the case of a point all come from here.
+struct Key {
+  std::string_view path;  ///< dotted: cut.axial_depth_mm
+  KeyType type = KeyType::number;
+  std::string_view unit;  ///< one of units(): mm, deg, rpm; empty where there is none
+  Range range;
+  Default fallback = Required{};
+  std::string_view help;  ///< one line
+  Field (*field)(Case&) = nullptr;
+  std::vector<std::string_view> choices = {};  ///< of a choice
+
+  /// Last part of the path: axial_depth_mm.
+  std::string_view name() const { return path.substr(path.rfind('.') + 1); }
+  /// General keys set nothing and stay the same over a sweep.
+  bool sweepable() const { return field != nullptr || type == KeyType::file; }
+  bool required() const { return std::holds_alternative<Required>(fallback); }
+  bool numeric() const { return type == KeyType::number || type == KeyType::integer; }
+};
+
+/// A unit that keys and columns may have: what the engine calls native is factor / divisor of it.
+struct Unit {
+  std::string_view name;     ///< as people write it: N/mm2
+  std::string_view udunits;  ///< as result files write it: N mm-2
+  double factor = 1.0;
+  double divisor = 1.0;
+};
+
+/// The unit of that name; every key and quantity uses one of the table.
+const Unit& unit_named(std::string_view name);
+
+/// Keys by section, as studies use them.
+std::span<const Key> general_keys();      ///< schema_version, [study], [output]; set nothing
+std::span<const Key> path_keys();         ///< [path]
+std::span<const Key> path_feed_keys();    ///< [cut], all that kind path takes of it
+std::span<const Key> cutter_keys();       ///< [cutter]
+std::span<const Key> coefficient_keys();  ///< [coefficients]
+std::span<const Key> cut_keys();          ///< [cut]
+std::span<const Key> numerics_keys();     ///< [numerics]
+
+/// The setting that a value of a file stands for.
+/// @throws core::InputError of one fault at the value's place: wrong type, not finite, out of
+/// range, not a choice. A file key yields the path as written; resolve() reads it.
+Setting checked_setting(const Key& key, const core::Value& value);
+
+/// Puts a checked setting into the case, in native units.
+void apply(const Key& key, const Setting& setting, Case& target);
+
+/// The value of a numeric key in the key's unit; nullopt where the case has none.
+std::optional<double> read(const Key& key, const Case& source);
+
+/// How a setting is written in messages, labels and the study hash.
+std::string to_string(const Setting& setting);
+
+}  // namespace millstudy::study

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "core/units.h"
+#include "process/machine_along.h"
+#include "study/kinds.h"
+#include "study/rows.h"
+#include "study/shared_sampler.h"
+
+namespace millstudy::study {
+namespace {
+
+constexpr std::size_t kMostPaths = 256;
+
+void check(const Given& given, const Case& base, Faults& faults) {
+  check_cut(given, base, faults);
+  check_numerics(given, base, faults);
+  if (!given.swept("path.curve_file") && !base.path.curve->planar) {
+    faults.add(given.place({"path.curve_file"}),
+               "the path climbs out of the xy plane: kind path_force needs a constant z");
+  }
+}
+
+class PathForceEvaluator {
+ public:
+  void operator()(const Case& point, std::span<double> row, sweep::Trace* trace) const {
+    if (!point.path.curve->planar) {
+      throw core::CaseError("the path climbs out of the xy plane");
+    }
+    const force::Engagement engaged = engagement(point);
+    const auto path = shared_path(point);
+    const auto sampler = samplers_.get(point, engaged);
+    const process::Machining machining{point.cutter, engaged, point.coefficients,
+                                       point.cut.spindle_speed, point.angular_steps};
+    const process::PathForces forces = process::machine_along(
+        path->interpolation, *sampler, machining, trace ? recorder(point, *trace) : nullptr);
+    static const std::size_t path_count = path_columns().size();
+    fill_path_row(path->figures, row.first(path_count));
+    fill_force_row(point, forces.force, forces.chip_thickness_max, row.subspan(path_count));
+  }
+
+ private:
+  /// The path of a point, shared by all that differ only in cutter, speed and coefficients.
+  std::shared_ptr<const MeasuredPath> shared_path(const Case& point) const {
+    const path::InterpolationSettings& s = point.path.interpolation;
+    const std::string key = share_key(point.path.curve.get(), feed_rate(point), s.method, s.period,
+                                      s.max_iterations, s.tolerance, s.steps, s.table_size);
+    return paths_->get(key, [&] { return measured_path(point); });
+  }
+
+  static process::SampleObserver recorder(const Case& point, sweep::Trace& trace) {
+    return [&point, &trace](std::int64_t first, std::int64_t count, const force::ForceSamples& f) {
+      for (std::int64_t i = 0; i < count; ++i) {
+        const double turn = static_cast<double>(first + i) / point.angular_steps;
+        trace.time.push_back(static_cast<float>(turn / point.cut.spindle_speed));
+        trace.angle.push_back(static_cast<float>(2.0 * core::kPi * turn));
+        trace.force_x.push_back(static_cast<float>(f.x[i]));
+        trace.force_y.push_back(static_cast<float>(f.y[i]));
+        trace.force_z.push_back(static_cast<float>(f.z[i]));
+      }
+    };
+  }
+
+  SharedSamplers samplers_;
+  std::shared_ptr<core::SharedCache<MeasuredPath>> paths_ =
+      std::make_shared<core::SharedCache<MeasuredPath>>(kMostPaths);
+};
+
+EvaluatePoint make_evaluator() {
+  return PathForceEvaluator();
+}
+
+std::vector<sweep::Column> columns() {
+  std::vector<sweep::Column> all = path_columns();
+  const std::vector<sweep::Column> force = force_columns();
+  all.insert(all.end(), force.begin(), force.end());
+  return all;
+}
+
+}  // namespace
+
+const Kind& path_force_kind() {
+  static const Kind kind = {
+      .name = "path_force",
+      .help = "the cutting force along an interpolated curve, in machine axes",
+      .sections = {general_keys(), path_keys(), cutter_keys(), coefficient_keys(), cut_keys(),
+                   numerics_keys()},
+      .columns = columns(),
+      .has_traces = true,
+      .check = check,
+      .make_evaluator = make_evaluator,
+  };
+  return kind;
+}
+
+}  // namespace millstudy::study

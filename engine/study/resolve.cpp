@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "study/curve_file.h"
+#include "study/study.h"
+#include "study/suggest.h"
+#include "study/sweep_section.h"
+
+namespace millstudy::study {
+namespace {
+
+/// Words for people in a file that stands for a section.
+constexpr std::array<std::string_view, 5> kFileText = {"name", "source", "units", "licence",
+                                                       "description"};
+
+bool is_file_text(std::string_view key) {
+  return std::find(kFileText.begin(), kFileText.end(), key) != kFileText.end();
+}
+
+std::string missing(const Key& key) {
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+  return fmt::format("{}{} is missing: {}", key.path, unit, key.help);
+}
+
+/// One study from its tree. Every step collects its faults; only what cannot go on throws.
+class Resolver {
+ public:
+  Resolver(const core::Value& root, const FileLoader& load)
+      : tree_(root), load_(load), folder_(std::filesystem::path(root.place.file).parent_path()) {
+    given_.file = {root.place.file, 0};
+  }
+
+  Study run() {
+    find_kind();
+    lift_file_key("cutter_file", "cutter");
+    lift_file_key("coefficients_file", "coefficients");
+    read_table(tree_, "");
+    const FileSettings read_file = [this](const Key& key, const core::Value& path) {
+      return settings_of_file(key, path);
+    };
+    if (const core::Value* sweep = tree_.find("sweep")) {
+      read_sweep(*sweep, read_file, study_, given_, faults_);
+    }
+    find_missing();
+    faults_.throw_if_any();
+    make_base();
+    study_.kind->check(given_, study_.base, faults_);
+    check_name();
+    faults_.throw_if_any();
+    study_.canonical = canonical();
+    return std::move(study_);
+  }
+
+ private:
+  /// Without a kind no key can be judged: this fault is reported alone.
+  void find_kind() {
+    if (!tree_.is_table()) throw core::InputError({{given_.file, "a study must be a table"}});
+    const core::Value* section = tree_.find("study");
+    const core::Value* kind = section ? section->find("kind") : nullptr;
+    std::vector<std::string_view> names;
+    for (const Kind* known : kinds()) names.push_back(known->name);
+    if (!kind) {
+      throw core::InputError(
+          {{given_.file, fmt::format("study.kind is missing: one of {}", fmt::join(names, ", "))}});
+    }
+    if (!kind->is_string()) {
+      throw core::InputError(
+          {{kind->place, fmt::format("study.kind must be a string, not {}", type_name(*kind))}});
+    }
+    for (const Kind* known : kinds()) {
+      if (known->name == kind->string()) study_.kind = known;
+    }
+    if (!study_.kind) {
+      throw core::InputError(
+          {{kind->place, fmt::format("study.kind = \"{}\" must be one of {}{}", kind->string(),
+                                     fmt::join(names, ", "), suggestion(kind->string(), names))}});
+    }
+    known_ = key_paths(*study_.kind);
+  }
+
+  /// `cutter_file = ...` before any section means [cutter] cutter_file = ...
+  void lift_file_key(std::string_view name, std::string_view section_name) {
+    core::Value::Table& root = tree_.table();
+    const auto at = std::find_if(root.begin(), root.end(),
+                                 [&](const core::Member& member) { return member.key == name; });
+    if (at == root.end()) return;
+    core::Member file = std::move(*at);
+    root.erase(at);
+    core::Value* section = tree_.find(section_name);
+    if (!section) {
+      root.push_back({std::string(section_name), {core::Value::Table{}, file.value.place}});
+      section = &root.back().value;
+    }
+    if (section->is_table()) section->table().push_back(std::move(file));
+  }
+
+  bool is_section(std::string_view path) const {
+    return std::any_of(known_.begin(), known_.end(), [&](std::string_view key) {
+      return key.size() > path.size() && key.starts_with(path) && key[path.size()] == '.';
+    });
+  }
+
+  void read_table(const core::Value& table, const std::string& prefix) {
+    for (const auto& [name, value] : table.table()) {
+      const std::string path = prefix.empty() ? name : prefix + '.' + name;
+      if (path == "sweep") continue;
+      if (path == "path.curve" && study_.kind->find_key("path.curve_file")) {
+        read_inline_curve(value);
+      } else if (const Key* key = study_.kind->find_key(path)) {
+        read_key(*key, value);
+      } else if (is_section(path)) {
+        if (value.is_table()) {
+          read_table(value, path);
+        } else {
+          faults_.add(value.place,
+                      fmt::format("{} must be a table, not {}", path, type_name(value)));
+        }
+      } else {
+        refuse_unknown(path, value);
+      }
+    }
+  }
+
+  void refuse_unknown(const std::string& path, const core::Value& value) {
+    for (const Kind* other : kinds()) {
+      const std::vector<std::string_view> keys = key_paths(*other);
+      const bool known = std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+        return key == path || (value.is_table() && key.starts_with(path + '.'));
+      });
+      if (known) {
+        return faults_.add(value.place, fmt::format("{} is not used by kind {}: leave it out", path,
+                                                    study_.kind->name));
+      }
+    }
+    std::vector<std::string_view> words = known_;
+    if (value.is_table()) {
+      for (std::string_view& word : words) word = word.substr(0, word.rfind('.'));
+    }
+    faults_.add(value.place, fmt::format("{} is not a key of kind {}{}", path, study_.kind->name,
+                                         suggestion(path, words)));
+  }
+
+  void read_key(const Key& key, const core::Value& value) {
+    if (given_.has(key.path)) {
+      return faults_.add(value.place, fmt::format("{} is given twice", key.path));
+    }
+    given_.entries[key.path] = {&key, value.place, false};
+    faults_.collect([&] {
+      if (key.type == KeyType::file) {
+        for (Assignment& assignment : settings_of_file(key, value))
+          keep(std::move(assignment), value);
+      } else {
+        settings_.insert_or_assign(key.path, checked_setting(key, value));
+      }
+    });
+  }
+
+  /// What a file says yields to what the study says itself.
+  void keep(Assignment assignment, const core::Value& file) {
+    const std::string_view path = assignment.key->path;
+    const core::Value* section = tree_.find(path.substr(0, path.find('.')));
+    const bool own =
+        assignment.key->type != KeyType::file && section && section->find(assignment.key->name());
+    if (own) return;
+    given_.entries.try_emplace(path, Given::Entry{assignment.key, file.place, false});
+    settings_.insert_or_assign(path, std::move(assignment.setting));
+  }
+
+  void read_inline_curve(const core::Value& value) {
+    const Key* key = study_.kind->find_key("path.curve_file");
+    if (tree_.find("path")->find("curve_file")) {
+      return faults_.add(value.place, "path.curve contradicts path.curve_file: give one of them");
+    }
+    given_.entries[key->path] = {key, value.place, false};
+    faults_.collect([&] { settings_.insert_or_assign(key->path, read_curve(value)); });
+  }
+
+  /// The settings that a file stands for: one curve, or the keys of a section.
+  std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value) const {
+    const Setting path = checked_setting(key, value);
+    const core::Value content = load_named(key, std::get<std::string>(path), value.place);
+    if (key.field) return {{&key, read_curve(content)}};
+    const std::string section(key.path.substr(0, key.path.find('.')));
+    std::vector<Assignment> assignments;
+    Faults faults;
+    for (const auto& [name, member] : content.table()) {
+      const Key* inner = study_.kind->find_key(section + '.' + name);
+      if (inner && inner->field) {
+        faults.collect([&] { assignments.push_back({inner, checked_setting(*inner, member)}); });
+      } else if (!is_file_text(name)) {
+        faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
+                                             suggestion(section + '.' + name, known_)));
+      }
+    }
+    faults.throw_if_any();
+    return assignments;
+  }
+
+  core::Value load_named(const Key& key, const std::string& name, const core::Place& place) const {
+    try {
+      return load_((folder_ / name).string());
+    } catch (const core::InputError& error) {
+      std::vector<core::Fault> faults = error.faults();
+      for (core::Fault& fault : faults) {
+        if (fault.place.line == 0)
+          fault = {place, fmt::format("{}: {}", key.path, to_string(fault))};
+      }
+      throw core::InputError(std::move(faults));
+    }
+  }
+
+  void find_missing() {
+    for (const std::span<const Key> section : study_.kind->sections) {
+      for (const Key& key : section) {
+        if (key.required() && !given_.has(key.path)) faults_.add(given_.file, missing(key));
+      }
+    }
+  }
+
+  void make_base() {
+    for (const std::span<const Key> section : study_.kind->sections) {
+      for (const Key& key : section) {
+        if (const auto* number = std::get_if<double>(&key.fallback)) {
+          settings_.try_emplace(key.path, *number);
+        } else if (const auto* text = std::get_if<std::string_view>(&key.fallback)) {
+          settings_.try_emplace(key.path, std::string(*text));
+        }
+        const auto setting = settings_.find(key.path);
+        if (setting != settings_.end() && key.field) apply(key, setting->second, study_.base);
+      }
+    }
+    study_.name = std::get<std::string>(settings_.at("study.name"));
+    study_.description = std::get<std::string>(settings_.at("study.description"));
+    const auto traces = settings_.find("output.traces");
+    study_.traces = traces != settings_.end() && std::get<bool>(traces->second);
+  }
+
+  void check_name() {
+    const std::string& name = study_.name;
+    const bool fine = !name.empty() && name.size() <= 100 && name.front() != '.' &&
+                      std::all_of(name.begin(), name.end(), [](char c) {
+                        return std::isalnum(static_cast<unsigned char>(c)) || c == '_' ||
+                               c == '-' || c == '.' || c == '+';
+                      });
+    if (fine) return;
+    faults_.add(given_.place({"study.name"}),
+                fmt::format("study.name = \"{}\" names the result file: use 1 to 100 letters, "
+                            "digits, _ - + and dots inside",
+                            name));
+  }
+
+  std::string canonical() const {
+    std::string text =
+        fmt::format("millstudy study 1\nkind {}\ntraces {}\n", study_.kind->name, study_.traces);
+    std::map<std::string_view, std::string> lines;
+    for (const auto& [path, setting] : settings_) {
+      const Key* key = study_.kind->find_key(path);
+      if (key->field && !given_.swept(path)) lines[path] = canonical_text(setting);
+    }
+    for (const auto& [path, line] : lines) text += fmt::format("{} = {}\n", path, line);
+    if (study_.axes.empty()) return text;
+    text += study_.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";
+    for (const Axis& axis : study_.axes) {
+      text += fmt::format("axis {} = {}", axis.path, fmt::join(axis.numbers, " "));
+      for (std::size_t i = 0; i < axis.labels.size(); ++i) {
+        text += fmt::format(" [{}", axis.labels[i]);
+        for (const Assignment& assignment : axis.settings[i]) {
+          text += fmt::format(" {} = {}", assignment.key->path, canonical_text(assignment.setting));
+        }
+        text += ']';
+      }
+      text += '\n';
+    }
+    for (const Limit& limit : study_.limits) {
+      text += fmt::format("where {} {} {}\n", limit.quantity,
+                          limit.min ? fmt::format("{}", *limit.min) : "-",
+                          limit.max ? fmt::format("{}", *limit.max) : "-");
+    }
+    return text;
+  }
+
+  static std::string canonical_text(const Setting& setting) {
+    const CurvePtr* curve = std::get_if<CurvePtr>(&setting);
+    return curve ? (*curve)->canonical : to_string(setting);
+  }
+
+  core::Value tree_;
+  const FileLoader& load_;
+  std::filesystem::path folder_;
+  Faults faults_;
+  Given given_;
+  Study study_;
+  std::vector<std::string_view> known_;
+  std::map<std::string_view, Setting> settings_;
+};
+
+}  // namespace
+
+Study resolve(const core::Value& root, const FileLoader& load) {
+  return Resolver(root, load).run();
+}
+
+}  // namespace millstudy::study

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "study/rows.h"
+
+#include "core/units.h"
+
+namespace millstudy::study {
+
+std::vector<sweep::Column> path_columns() {
+  return {
+      {"feed_fluctuation_max", "percent", "largest feed fluctuation"},
+      {"feed_fluctuation_rms", "percent", "root mean square feed fluctuation"},
+      {"feed_fluctuation_l2", "percent", "Euclidean norm of the feed fluctuations"},
+      {"steps", "1", "full interpolation steps"},
+      {"curve_evaluations", "1", "evaluations of the curve"},
+      {"fallback_steps", "1", "steps taken by the bracketed fallback"},
+      {"path_length", "mm", "arc length of the path"},
+      {"path_time", "s", "time along the path"},
+      {"chord_error_max", "mm", "largest distance between chord and curve"},
+  };
+}
+
+void fill_path_row(const path::PathFigures& figures, std::span<double> row) {
+  std::size_t c = 0;
+  for (const double value :
+       {figures.feed_fluctuation_max, figures.feed_fluctuation_rms, figures.feed_fluctuation_l2,
+        figures.steps, figures.curve_evaluations, figures.fallback_steps, figures.path_length,
+        figures.path_time, figures.chord_error_max}) {
+    row[c++] = value;
+  }
+}
+
+std::vector<sweep::Column> force_columns() {
+  std::vector<sweep::Column> columns;
+  for (const auto& [axis, words] : {std::pair{"x", "force on the tool along x"},
+                                    {"y", "force on the tool along y"},
+                                    {"z", "force on the tool along z"},
+                                    {"resultant", "resultant force on the tool"}}) {
+    for (const auto& [statistic, prefix] : {std::pair{"mean", "mean "},
+                                            {"min", "smallest "},
+                                            {"max", "largest "},
+                                            {"rms", "root mean square "}}) {
+      columns.push_back(
+          {std::string("force_") + axis + "_" + statistic, "N", std::string(prefix) + words});
+    }
+  }
+  columns.insert(columns.end(), {
+                                    {"torque_mean", "N m", "mean spindle torque"},
+                                    {"torque_max", "N m", "largest spindle torque"},
+                                    {"power_mean", "W", "mean cutting power"},
+                                    {"chip_thickness_max", "mm", "largest uncut chip thickness"},
+                                    {"feed_per_tooth", "mm", "commanded feed per tooth"},
+                                    {"material_removal_rate", "cm3 min-1", "material removal rate"},
+                                });
+  return columns;
+}
+
+void fill_force_row(const Case& point, const force::ForceStatistics& force,
+                    double chip_thickness_max, std::span<double> row) {
+  std::size_t c = 0;
+  for (const force::Statistics& s : {force.x, force.y, force.z, force.resultant}) {
+    for (const double value : {s.mean, s.min, s.max, s.rms}) row[c++] = value;
+  }
+  const double angular_speed = 2.0 * core::kPi * point.cut.spindle_speed;  // [rad/s]
+  const double torque_mean = core::newton_metre(force.torque_mean);
+  for (const double value : {torque_mean, core::newton_metre(force.torque_max),
+                             torque_mean * angular_speed, chip_thickness_max, feed_per_tooth(point),
+                             core::cm3_per_min_from_mm3_per_s(material_removal_rate(point))}) {
+    row[c++] = value;
+  }
+}
+
+MeasuredPath measured_path(const Case& point) {
+  path::InterpolationSettings settings = point.path.interpolation;
+  settings.feed_rate = feed_rate(point);
+  MeasuredPath result{path::interpolate(point.path.curve->curve, settings), {}};
+  result.figures = path::path_figures(point.path.curve->curve, result.interpolation);
+  return result;
+}
+
+}  // namespace millstudy::study

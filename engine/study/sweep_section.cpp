@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "study/quantity.h"
+#include "study/suggest.h"
+
+namespace millstudy::study {
+namespace {
+
+constexpr double kLongestAxis = 1e6;
+
+class SweepReader {
+ public:
+  SweepReader(const FileSettings& read_file, Study& study, Given& given, Faults& faults)
+      : read_file_(read_file), study_(study), given_(given), faults_(faults) {}
+
+  void read(const core::Value& section) {
+    if (!section.is_table()) return faults_.add(section.place, "sweep must be a table");
+    sweep::Design design = sweep::Design::grid;
+    for (const auto& [key, value] : section.table()) {
+      if (key == "design") {
+        design = read_design(value);
+      } else if (key == "axes") {
+        read_axes(value, "");
+      } else if (key == "where") {
+        read_limits(value);
+      } else {
+        constexpr std::array<std::string_view, 3> kKnown = {"design", "axes", "where"};
+        faults_.add(value.place, fmt::format("sweep.{} is not a key of a study{}", key,
+                                             suggestion(key, kKnown)));
+      }
+    }
+    if (!section.find("axes")) {
+      return faults_.add(section.place,
+                         "sweep.axes is missing: say what to sweep, or leave "
+                         "[sweep] out for a single point");
+    }
+    if (!faults_.empty()) return;
+    if (study_.axes.empty()) {
+      return faults_.add(section.find("axes")->place, "sweep.axes has no axis");
+    }
+    make_space(design, section.find("axes")->place);
+  }
+
+ private:
+  sweep::Design read_design(const core::Value& value) {
+    if (value.is_string() && value.string() == "grid") return sweep::Design::grid;
+    if (value.is_string() && value.string() == "zip") return sweep::Design::zip;
+    faults_.add(value.place,
+                value.is_string()
+                    ? fmt::format("sweep.design = \"{}\" must be one of grid, zip", value.string())
+                    : "sweep.design must be a string: grid or zip");
+    return sweep::Design::grid;
+  }
+
+  /// Axes may be written "cut.axial_depth_mm" = ... or cut.axial_depth_mm = ..., a nested table.
+  void read_axes(const core::Value& table, const std::string& prefix) {
+    if (!table.is_table()) return faults_.add(table.place, "sweep.axes must be a table of keys");
+    for (const auto& [name, value] : table.table()) {
+      const std::string path = prefix.empty() ? name : prefix + '.' + name;
+      if (const Key* key = study_.kind->find_key(path)) {
+        read_axis(*key, value);
+      } else if (value.is_table() && is_section(path)) {
+        read_axes(value, path);
+      } else {
+        faults_.add(value.place, fmt::format("sweep.axes: {} is not a key of kind {}{}", path,
+                                             study_.kind->name, suggestion(path, sweepable_)));
+      }
+    }
+  }
+
+  bool is_section(std::string_view path) const {
+    return std::any_of(sweepable_.begin(), sweepable_.end(), [&](std::string_view key) {
+      return key.size() > path.size() && key.starts_with(path) && key[path.size()] == '.';
+    });
+  }
+
+  void read_axis(const Key& key, const core::Value& value) {
+    if (!key.sweepable()) {
+      return faults_.add(value.place, fmt::format("sweep.axes: {} cannot be swept", key.path));
+    }
+    if (std::any_of(study_.axes.begin(), study_.axes.end(),
+                    [&](const Axis& axis) { return axis.key == &key; })) {
+      return faults_.add(value.place, fmt::format("sweep.axes: {} stands there twice", key.path));
+    }
+    Axis axis{std::string(key.path), &key, {}, {}, {}};
+    const bool fine = faults_.collect([&] {
+      if (value.is_table()) {
+        read_range(key, value, axis);
+      } else if (value.is_array()) {
+        read_list(key, value, axis);
+      } else {
+        fail(value, fmt::format("sweep.axes: {} must be a list, or {{ from, to, count }}, not {}",
+                                key.path, type_name(value)));
+      }
+    });
+    given_.entries[key.path] = {&key, value.place, true};
+    if (fine) study_.axes.push_back(std::move(axis));
+  }
+
+  [[noreturn]] static void fail(const core::Value& value, std::string text) {
+    throw core::InputError({{value.place, std::move(text)}});
+  }
+
+  static void check_length(const Key& key, const core::Value& value, double count) {
+    if (count < 1.0) fail(value, fmt::format("sweep.axes: {} has no values", key.path));
+    if (count > kLongestAxis) {
+      fail(value, fmt::format("sweep.axes: {} has {:.4g} values, more than {:.0f}", key.path, count,
+                              kLongestAxis));
+    }
+  }
+
+  void read_list(const Key& key, const core::Value& list, Axis& axis) {
+    check_length(key, list, static_cast<double>(list.array().size()));
+    Faults faults;
+    for (const core::Value& item : list.array()) {
+      faults.collect([&] { add_value(key, item, axis); });
+    }
+    faults.throw_if_any();
+  }
+
+  void add_value(const Key& key, const core::Value& item, Axis& axis) {
+    Setting setting = checked_setting(key, item);
+    if (key.numeric()) {
+      axis.numbers.push_back(std::get<double>(setting));
+      return;
+    }
+    axis.labels.push_back(item.string());
+    axis.settings.push_back(key.type == KeyType::file
+                                ? read_file_(key, item)
+                                : std::vector<Assignment>{{&key, std::move(setting)}});
+  }
+
+  static double range_member(const Key& key, const core::Value& range, std::string_view name) {
+    const core::Value* value = range.find(name);
+    if (!value || !value->is_number() || !std::isfinite(value->number())) {
+      fail(value ? *value : range,
+           fmt::format("sweep.axes: {} needs {} as a number", key.path, name));
+    }
+    return value->number();
+  }
+
+  static bool logarithmic(const Key& key, const core::Value& range) {
+    const core::Value* spacing = range.find("spacing");
+    if (!spacing) return false;
+    if (spacing->is_string() && spacing->string() == "linear") return false;
+    if (spacing->is_string() && spacing->string() == "log") return true;
+    fail(*spacing, fmt::format("sweep.axes: {}: spacing must be linear or log", key.path));
+  }
+
+  void read_range(const Key& key, const core::Value& range, Axis& axis) {
+    constexpr std::array<std::string_view, 4> kKnown = {"from", "to", "count", "spacing"};
+    for (const auto& [name, value] : range.table()) {
+      if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+        fail(value, fmt::format("sweep.axes: {}: {} is not one of from, to, count, spacing{}",
+                                key.path, name, suggestion(name, kKnown)));
+      }
+    }
+    if (!key.numeric()) {
+      fail(range, fmt::format("sweep.axes: {} is not a number; give a list", key.path));
+    }
+    const double from = range_member(key, range, "from");
+    const double to = range_member(key, range, "to");
+    const double count = range_member(key, range, "count");
+    const bool log = logarithmic(key, range);
+    if (count != std::nearbyint(count)) {
+      fail(*range.find("count"),
+           fmt::format("sweep.axes: {}: count must be a whole number", key.path));
+    }
+    check_length(key, *range.find("count"), count);
+    if (log && (from <= 0.0 || to <= 0.0)) {
+      fail(range, fmt::format("sweep.axes: {}: log spacing needs from and to > 0", key.path));
+    }
+    const auto last = static_cast<std::int64_t>(count) - 1;
+    for (std::int64_t i = 0; i <= last; ++i) {
+      const double t = last == 0 ? 0.0 : static_cast<double>(i) / static_cast<double>(last);
+      double number = log ? from * std::pow(to / from, t) : from + (to - from) * t;
+      if (i == last && last > 0) number = to;
+      add_value(key, {number, range.place}, axis);
+    }
+  }
+
+  void read_limits(const core::Value& list) {
+    if (!list.is_array()) {
+      return faults_.add(list.place, "sweep.where must be a list of tables: [[sweep.where]]");
+    }
+    for (const core::Value& item : list.array()) {
+      faults_.collect([&] { study_.limits.push_back(read_limit(item)); });
+    }
+  }
+
+  Limit read_limit(const core::Value& table) const {
+    if (!table.is_table()) fail(table, "sweep.where must be a list of tables: [[sweep.where]]");
+    Limit limit;
+    for (const auto& [name, value] : table.table()) {
+      if (name == "quantity") {
+        if (!value.is_string()) fail(value, "sweep.where: quantity must be a string");
+        limit.quantity = value.string();
+        limit.value = quantity_named(limit.quantity, *study_.kind);
+        if (!limit.value) {
+          fail(value, fmt::format("sweep.where: quantity = \"{}\" is neither a numeric key of kind "
+                                  "{} nor one of {}",
+                                  limit.quantity, study_.kind->name, quantity_names()));
+        }
+      } else if (name == "min" || name == "max") {
+        if (!value.is_number() || std::isnan(value.number())) {
+          fail(value, fmt::format("sweep.where: {} must be a number", name));
+        }
+        (name == "min" ? limit.min : limit.max) = value.number();
+      } else {
+        fail(value, fmt::format("sweep.where: {} is not one of quantity, min, max", name));
+      }
+    }
+    if (!limit.value) fail(table, "sweep.where has no quantity");
+    if (!limit.min && !limit.max) fail(table, "sweep.where has neither min nor max");
+    return limit;
+  }
+
+  void make_space(sweep::Design design, const core::Place& place) {
+    std::vector<std::int64_t> lengths;
+    for (const Axis& axis : study_.axes) lengths.push_back(static_cast<std::int64_t>(axis.size()));
+    try {
+      study_.space = sweep::ParameterSpace(design, std::move(lengths));
+    } catch (const core::InputError& error) {
+      faults_.add(place, error.what());
+    }
+  }
+
+  const FileSettings& read_file_;
+  Study& study_;
+  Given& given_;
+  Faults& faults_;
+  std::vector<std::string_view> sweepable_ = key_paths(*study_.kind);
+};
+
+}  // namespace
+
+void read_sweep(const core::Value& section, const FileSettings& read_file, Study& study,
+                Given& given, Faults& faults) {
+  Faults own;  // so that an earlier fault elsewhere does not hide the ones in here
+  SweepReader(read_file, study, given, own).read(section);
+  faults.collect([&] { own.throw_if_any(); });
+}
+
+}  // namespace millstudy::study

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "sweep/block.h"
+#include "sweep/layout.h"
+
+namespace millstudy::sweep {
+
+/// How far a run has come.
+struct Progress {
+  std::int64_t points = 0;  ///< of the whole study
+  std::int64_t ok = 0;
+  std::int64_t failed = 0;
+  std::int64_t skipped = 0;
+  double seconds = 0.0;  ///< since the start
+
+  std::int64_t done() const { return ok + failed + skipped; }
+};
+
+struct RunOptions {
+  int threads = 0;              ///< 0: all
+  std::int64_t block_size = 0;  ///< points per block; 0: chosen from the number of points
+  const std::atomic<bool>* stop = nullptr;        ///< set from outside to end early
+  std::function<void(const Progress&)> progress;  ///< called after every block, on one thread
+};
+
+/// Fills one block: every point gets a status, and its values or its failure. Called concurrently.
+using EvaluateBlock = std::function<void(Block&)>;
+
+/// Points per block: small enough to share evenly among the threads and, with traces, to hold in
+/// memory; large enough that scheduling costs nothing. Results do not depend on it.
+std::int64_t default_block_size(const Layout& layout);
+
+/// Evaluates every point of the study in blocks, in parallel, and hands the blocks to the sink in
+/// order. Does not call Sink::finish: an interrupted run (progress.done() < points) is the
+/// caller's to judge.
+///
+/// The values do not depend on threads or block size; memory is bounded by the blocks in flight.
+Progress run_blocks(const Layout& layout, const EvaluateBlock& evaluate, Sink& sink,
+                    const RunOptions& options);
+
+}  // namespace millstudy::sweep
