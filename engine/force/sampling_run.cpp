@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "force/sampling_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/units.h"
+#include "force/tooth_integral.h"
+
+namespace millstudy::force {
+
+AngleTables::AngleTables(int angular_steps, int flute_count)
+    : flutes(flute_count),
+      period(angular_steps / std::gcd(angular_steps, flute_count)),
+      step(2.0 * core::kPi / angular_steps) {
+  const int padded = period + kLanes;
+  for (int n = 0; n < padded; ++n) {
+    const double angle = 2.0 * core::kPi * n / angular_steps;
+    cos1.push_back(std::cos(angle));
+    sin1.push_back(std::sin(angle));
+    cos2.push_back(std::cos(2.0 * angle));
+    sin2.push_back(std::sin(2.0 * angle));
+  }
+  for (int q = 0; q < flutes; ++q) {
+    cos_pitch.push_back(std::cos(2.0 * core::kPi * q / flutes));
+    sin_pitch.push_back(std::sin(2.0 * core::kPi * q / flutes));
+  }
+}
+
+SamplingRun::SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+                         std::array<double*, kRows> rows)
+    : tables_(tables),
+      direction_(direction),
+      cos_direction_(std::cos(direction)),
+      sin_direction_(std::sin(direction)),
+      per_pitch_(0.5 * tables.flutes / core::kPi),
+      indices_(indices),
+      rows_(rows) {}
+
+Pass SamplingRun::pass(std::int64_t q) const {
+  const std::int64_t left = q % tables_.flutes;
+  const std::size_t at = left < 0 ? left + tables_.flutes : left;
+  const double c = tables_.cos_pitch[at];
+  const double s = tables_.sin_pitch[at];
+  return {direction_ + 2.0 * core::kPi * static_cast<double>(q) / tables_.flutes,
+          cos_direction_ * c - sin_direction_ * s, sin_direction_ * c + cos_direction_ * s};
+}
+
+IndexRange SamplingRun::between(const Pass& pass, double from, double to, Closed closed) const {
+  const double scale = 1.0 / tables_.step;
+  const double snap = kAngleSnap * scale;
+  const auto first_after = [&](double angle) {
+    const double at = (angle - pass.offset) * scale;
+    const double index = closed == Closed::above ? std::floor(at + snap) + 1.0  // angle excluded
+                                                 : std::ceil(at - snap);        // angle included
+    return static_cast<int>(std::clamp<double>(index, indices_.first, indices_.last));
+  };
+  return {first_after(from), first_after(to)};
+}
+
+template <class Evaluate>
+[[gnu::always_inline]] inline void SamplingRun::accumulate(IndexRange indices,
+                                                           const Evaluate& evaluate) {
+  for (int n = indices.first; n < indices.last; n += kLanes) {
+    const int count = indices.last - n;
+    const int at = n - indices_.first;
+    Lanes x, y, z, torque;
+    evaluate(n, x, y, z, torque);
+    add_to(rows_[0] + at, x, count);
+    add_to(rows_[1] + at, y, count);
+    add_to(rows_[2] + at, z, count);
+    add_to(rows_[3] + at, torque, count);
+  }
+}
+
+void SamplingRun::add(const Pass& pass, IndexRange indices, const Harmonics& force) {
+  if (indices.first >= indices.last) return;
+  const Harmonics p = shifted(force, pass.cosine, pass.sine);
+  accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+    const Lanes c1 = load(&tables_.cos1[n]);
+    const Lanes s1 = load(&tables_.sin1[n]);
+    const Lanes c2 = load(&tables_.cos2[n]);
+    const Lanes s2 = load(&tables_.sin2[n]);
+    x = p.constant[0] + p.cos1[0] * c1 + p.sin1[0] * s1 + p.cos2[0] * c2 + p.sin2[0] * s2;
+    y = p.constant[1] + p.cos1[1] * c1 + p.sin1[1] * s1 + p.cos2[1] * c2 + p.sin2[1] * s2;
+    z = p.constant[2] + p.cos1[2] * c1 + p.sin1[2] * s1;
+    torque = p.constant[3] + p.cos1[3] * c1 + p.sin1[3] * s1;
+  });
+}
+
+void SamplingRun::add(const Pass& pass, IndexRange indices, const Harmonics& force,
+                      const Row& slope, double origin) {
+  if (indices.first >= indices.last) return;
+  const Harmonics p = shifted(force, pass.cosine, pass.sine);
+  const double from = pass.offset - origin;
+  accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+    const Lanes d = from + tables_.step * (static_cast<double>(n) + kLaneIndex);
+    const Lanes c1 = load(&tables_.cos1[n]);
+    const Lanes s1 = load(&tables_.sin1[n]);
+    const Lanes c2 = load(&tables_.cos2[n]);
+    const Lanes s2 = load(&tables_.sin2[n]);
+    x = p.constant[0] + slope[0] * d + p.cos1[0] * c1 + p.sin1[0] * s1 + p.cos2[0] * c2 +
+        p.sin2[0] * s2;
+    y = p.constant[1] + slope[1] * d + p.cos1[1] * c1 + p.sin1[1] * s1 + p.cos2[1] * c2 +
+        p.sin2[1] * s2;
+    z = p.constant[2] + slope[2] * d + p.cos1[2] * c1 + p.sin1[2] * s1;
+    torque = p.constant[3] + slope[3] * d + p.cos1[3] * c1 + p.sin1[3] * s1;
+  });
+}
+
+void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor& terms, double sign,
+                             double origin) {
+  const double from = pass.offset - origin;
+  accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+    const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
+    x = y = z = torque = Lanes{};
+    for (int m = kTaylorTerms - 1; m >= 0; --m) {
+      x = (x + terms[m][0]) * d;
+      y = (y + terms[m][1]) * d;
+      z = (z + terms[m][2]) * d;
+      torque = (torque + terms[m][3]) * d;
+    }
+  });
+}
+
+void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<Row>& terms,
+                                double sign, double origin, double length) {
+  const double from = pass.offset - origin;
+  accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+    const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
+    const Lanes part = d / length;
+    const Lanes inside = part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
+    const Lanes t = 2.0 * square_root(inside) - 1.0;
+    const Lanes twice = 2.0 * t;
+    // Clenshaw's recurrence, four series abreast.
+    Lanes x1{}, y1{}, z1{}, torque1{};
+    Lanes x2{}, y2{}, z2{}, torque2{};
+    for (std::size_t m = terms.size(); m-- > 1;) {
+      const Row& term = terms[m];
+      const Lanes x0 = term[0] + (twice * x1 - x2);
+      const Lanes y0 = term[1] + (twice * y1 - y2);
+      const Lanes z0 = term[2] + (twice * z1 - z2);
+      const Lanes torque0 = term[3] + (twice * torque1 - torque2);
+      x2 = x1, y2 = y1, z2 = z1, torque2 = torque1;
+      x1 = x0, y1 = y0, z1 = z0, torque1 = torque0;
+    }
+    x = terms[0][0] + (t * x1 - x2);
+    y = terms[0][1] + (t * y1 - y2);
+    z = terms[0][2] + (t * z1 - z2);
+    torque = terms[0][3] + (t * torque1 - torque2);
+  });
+}
+
+}  // namespace millstudy::force

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "force/harmonics.h"
+#include "force/lanes.h"
+
+namespace millstudy::force {
+
+/// Cosines and sines of 2 pi n / S and of its double, for the n after which the force repeats,
+/// padded by one vector.
+struct AngleTables {
+  AngleTables(int angular_steps, int flutes);
+
+  int flutes;
+  int period;   ///< S / gcd(S, flutes): the force at n and n + period is the same
+  double step;  ///< 2 pi / S [rad]
+  std::vector<double> cos1;
+  std::vector<double> sin1;
+  std::vector<double> cos2;
+  std::vector<double> sin2;
+  std::vector<double> cos_pitch;  ///< of 2 pi q / flutes, shape (flutes)
+  std::vector<double> sin_pitch;
+};
+
+/// One tooth passing through the tables: at index n its tip stands at offset + n step.
+struct Pass {
+  double offset;  ///< [rad], not reduced
+  double cosine;  ///< of the offset
+  double sine;
+};
+
+/// Indices first .. last - 1.
+struct IndexRange {
+  int first;
+  int last;
+};
+
+/// Which end of an interval of angles belongs to it; it only matters at zero helix.
+enum class Closed { above, below };
+
+/// One contiguous run of samples being added up: what the prepared edges write to.
+///
+/// Every add_ function evaluates its formula at the indices given, eight at a time, and adds it to
+/// the rows. Sample n gets the same bits whatever else is in the run.
+class SamplingRun {
+ public:
+  using Row = Harmonics::Row;
+
+  /// @param direction  feed direction theta [rad], reduced to +-pi
+  /// @param rows       x, y, z, torque of index `first`, each of last - first values, zeroed
+  SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+              std::array<double*, kRows> rows);
+
+  double step() const { return tables_.step; }
+
+  /// Calls visit(pass) for every pass of a tooth whose tip can be between two angles [rad]: tooth
+  /// after tooth, turn after turn, for these differ by multiples of the pitch alone.
+  template <class Visit>
+  void for_each_pass(double from, double to, const Visit& visit) const {
+    const double whole = tables_.step * tables_.period;
+    const auto first = static_cast<std::int64_t>((from - direction_ - whole) * per_pitch_ - 2.0);
+    const auto last = static_cast<std::int64_t>((to - direction_) * per_pitch_ + 2.0);
+    for (std::int64_t q = first; q <= last; ++q) visit(pass(q));
+  }
+
+  /// Indices of the run at which the tip of a pass is between two angles [rad].
+  IndexRange between(const Pass& pass, double from, double to, Closed closed) const;
+
+  /// Adds harmonics of the tip angle of a pass.
+  void add(const Pass& pass, IndexRange indices, const Harmonics& force);
+
+  /// Adds harmonics and slope (x, y, z, torque) times (tip angle - origin).
+  void add(const Pass& pass, IndexRange indices, const Harmonics& force, const Row& slope,
+           double origin);
+
+  static constexpr int kTaylorTerms = 12;
+  using Taylor = std::array<Row, kTaylorTerms>;
+  /// Adds sum_m terms[m] d^(m+1), d = sign (tip angle - origin).
+  void add_taylor(const Pass& pass, IndexRange indices, const Taylor& terms, double sign,
+                  double origin);
+
+  /// Adds sum_m terms[m] T_m(2 sqrt(d / length) - 1), d = sign (tip angle - origin).
+  void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<Row>& terms,
+                     double sign, double origin, double length);
+
+ private:
+  Pass pass(std::int64_t q) const;
+
+  /// Runs evaluate(n, x, y, z, torque) over indices and adds the lanes it fills in.
+  template <class Evaluate>
+  void accumulate(IndexRange indices, const Evaluate& evaluate);
+
+  const AngleTables& tables_;
+  double direction_;
+  double cos_direction_;
+  double sin_direction_;
+  double per_pitch_;
+  IndexRange indices_;
+  std::array<double*, kRows> rows_;
+};
+
+}  // namespace millstudy::force

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "core/units.h"
+#include "force/coefficients.h"
+
+/// The baseline of bench_force: what a careful program does with the paper's equal-height discs.
+///
+/// A flat cutter, forces x, y, z at every angle of a revolution as the sum over all discs of all
+/// teeth, with the gate of the engagement and all six coefficients. No sine is computed: those of
+/// the angles and of the discs' lags are prepared, and a disc's are their product (angle
+/// addition). The loop over discs is `omp simd`. A slot, so that the gate is sin(phi) > 0: no
+/// angle has to be reduced, the cheapest gate there is.
+namespace millstudy::baseline {
+
+class DiscForce {
+ public:
+  DiscForce(double diameter, int flutes, double helix_angle, double axial_depth, int discs,
+            int angular_steps)
+      : flutes_(flutes), steps_(angular_steps), height_(axial_depth / discs) {
+    for (int i = 0; i < angular_steps * flutes; ++i) {
+      const double phi =
+          2.0 * core::kPi * (i / flutes) / angular_steps + 2.0 * core::kPi * (i % flutes) / flutes;
+      sin_phi_.push_back(std::sin(phi));
+      cos_phi_.push_back(std::cos(phi));
+    }
+    for (int i = 0; i < discs; ++i) {
+      const double lag = 2.0 * std::tan(helix_angle) / diameter * (i + 0.5) * height_;
+      sin_lag_.push_back(std::sin(lag));
+      cos_lag_.push_back(std::cos(lag));
+    }
+  }
+
+  /// Forces of one revolution, each array of angular_steps values.
+  void revolution(const force::Coefficients& k, double feed_per_tooth, double* x, double* y,
+                  double* z) const {
+    for (int i = 0; i < steps_; ++i) {
+      double sum_x = 0.0, sum_y = 0.0, sum_z = 0.0;
+      for (int tooth = 0; tooth < flutes_; ++tooth) {
+        add_tooth(k, feed_per_tooth, sin_phi_[i * flutes_ + tooth], cos_phi_[i * flutes_ + tooth],
+                  sum_x, sum_y, sum_z);
+      }
+      x[i] = sum_x * height_, y[i] = sum_y * height_, z[i] = sum_z * height_;
+    }
+  }
+
+ private:
+  void add_tooth(const force::Coefficients& k, double feed_per_tooth, double sin_phi,
+                 double cos_phi, double& sum_x, double& sum_y, double& sum_z) const {
+    const double* sin_lag = sin_lag_.data();
+    const double* cos_lag = cos_lag_.data();
+    const int discs = static_cast<int>(sin_lag_.size());
+    const double ktc = feed_per_tooth * k.Ktc, krc = feed_per_tooth * k.Krc;
+    const double kac = feed_per_tooth * k.Kac;
+    const double kte = k.Kte, kre = k.Kre, kae = k.Kae;
+    double x = 0.0, y = 0.0, z = 0.0;
+#pragma omp simd reduction(+ : x, y, z)
+    for (int d = 0; d < discs; ++d) {
+      const double s = sin_phi * cos_lag[d] - cos_phi * sin_lag[d];
+      const double c = cos_phi * cos_lag[d] + sin_phi * sin_lag[d];
+      const double gate = s > 0.0 ? 1.0 : 0.0;
+      const double tangential = gate * (ktc * s + kte);
+      const double radial = gate * (krc * s + kre);
+      x -= tangential * c + radial * s;
+      y += tangential * s - radial * c;
+      z -= gate * (kac * s + kae);
+    }
+    sum_x += x, sum_y += y, sum_z += z;
+  }
+
+  int flutes_;
+  int steps_;
+  double height_;
+  std::vector<double> sin_phi_, cos_phi_;  // shape (steps, flutes)
+  std::vector<double> sin_lag_, cos_lag_;  // shape (discs)
+};
+
+}  // namespace millstudy::baseline
