@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <hdf5.h>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/row_major.h"
+
+/// A thin layer over the HDF5 1.10 C API: identifiers that close themselves, errors that throw.
+///
+/// Use from one thread at a time (Debian's library is not built for more).
+namespace millstudy::io::hdf5 {
+
+/// What the library said, innermost cause first.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// While it lives, the library does not print its errors to stderr.
+class QuietErrors {
+ public:
+  QuietErrors();
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+  ~QuietErrors();
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Owns one identifier of any kind: file, dataset, dataspace, type, property list, attribute.
+class Handle {
+ public:
+  Handle() = default;
+  /// @throws Error if id is the library's sign of failure
+  Handle(hid_t id, const char* doing);
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() { close(); }
+  /// Errors of closing are lost here; flush first where they matter.
+  void close() noexcept;
+  hid_t get() const { return id_; }
+
+ private:
+  hid_t id_ = H5I_INVALID_HID;
+};
+
+/// Throws Error with the library's own text if the result of a call is negative.
+template <class Result>
+Result check(Result result, const char* doing);
+[[noreturn]] void fail(const char* doing);
+
+Handle open_file_to_read(const std::string& path);
+
+struct DatasetOptions {
+  Shape chunk = {};        ///< empty: contiguous
+  bool unlimited = false;  ///< one dimension that grows from 0
+  int gzip = 0;            ///< level; with byte shuffle when > 0; chunked only
+  /// Fill value, written as _FillValue too; float64 only.
+  std::optional<double> fill = std::nullopt;
+  bool allocate = true;  ///< false: elements that nobody writes take no space
+};
+
+/// @param type   stored type, e.g. H5T_IEEE_F64LE
+/// @param shape  empty for a scalar
+Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const Shape& shape,
+                      const DatasetOptions& options = {});
+
+/// Sets the lengths of the dimension of an unlimited dataset.
+void extend(hid_t dataset, std::int64_t length);
+
+Shape shape_of(hid_t dataset);
+
+/// Writes elements begin .. begin + count - 1, counted in row-major order.
+void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
+                 std::int64_t count, const void* data);
+void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
+                std::int64_t count, void* data);
+
+/// Makes the dataset the scale of a dimension of that name, or attaches a scale to a dimension.
+void make_scale(hid_t dataset, const std::string& name);
+void attach_scale(hid_t dataset, hid_t scale, std::size_t dimension);
+
+/// Text attributes are fixed-length UTF-8, which ncdump prints as text; numbers are little-endian
+/// int64 and float64. An attribute of that name is replaced.
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+void write_attribute(hid_t object, const std::string& name, double value);
+void write_attribute(hid_t object, const std::string& name, std::span<const std::int8_t> values);
+
+template <class Result>
+Result check(Result result, const char* doing) {
+  if (result < 0) fail(doing);
+  return result;
+}
+
+}  // namespace millstudy::io::hdf5

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "io/point_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+#include <sstream>
+
+#include "core/error.h"
+#include "io/hdf5_text.h"
+
+namespace millstudy::io {
+namespace {
+
+using hdf5::Handle;
+using Kind = PointColumn::Kind;
+
+constexpr std::int64_t kMostPoints = std::int64_t{1} << 40;
+constexpr std::int64_t kMostReasons = 1 << 20;
+constexpr std::array<const char*, 4> kStatusWords = {"ok", "failed", "skipped", "not_run"};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw core::InputError({{core::Place{path, 0}, why}});
+}
+
+Handle open(hid_t file, const std::string& name) {
+  return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), "open a variable"};
+}
+
+std::string text_attribute(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return "";
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), "open an attribute");
+  return hdf5::read_text_attribute(attribute.get());
+}
+
+/// Name of an object in its file, without the leading slash.
+std::string name_of(hid_t object) {
+  std::array<char, 1024> name{};
+  H5Iget_name(object, name.data(), name.size());
+  return name[0] == '/' ? name.data() + 1 : name.data();
+}
+
+/// H5DSiterate_scales callback: keeps the name of the first scale.
+herr_t keep_name(hid_t /*dataset*/, unsigned /*dimension*/, hid_t scale, void* name) {
+  *static_cast<std::string*>(name) = name_of(scale);
+  return 1;
+}
+
+/// Name of the scale of each dimension; empty where there is none.
+std::vector<std::string> dimensions_of(hid_t dataset, std::size_t rank) {
+  std::vector<std::string> names(rank);
+  for (std::size_t d = 0; d < rank; ++d) {
+    const auto dimension = static_cast<unsigned>(d);
+    if (H5DSget_num_scales(dataset, dimension) < 1) continue;
+    H5DSiterate_scales(dataset, dimension, nullptr, keep_name, &names[d]);
+  }
+  return names;
+}
+
+herr_t collect_name(hid_t /*group*/, const char* name, const H5L_info_t* /*info*/, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+/// Names in a file in the order they were made, where the file knows it.
+std::vector<std::string> names_in(hid_t file) {
+  std::vector<std::string> names;
+  if (H5Literate(file, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, collect_name, &names) >= 0) {
+    return names;
+  }
+  names.clear();
+  hdf5::check(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names),
+              "list variables");
+  return names;
+}
+
+bool is_dataset(hid_t file, const std::string& name) {
+  H5O_info_t info;
+  return H5Oget_info_by_name2(file, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+         info.type == H5O_TYPE_DATASET;
+}
+
+H5T_class_t class_of(hid_t dataset) {
+  const Handle type(H5Dget_type(dataset), "read a type");
+  return H5Tget_class(type.get());
+}
+
+PointColumn make_column(Handle dataset, const std::string& name) {
+  PointColumn column;
+  column.name = name;
+  column.units = text_attribute(dataset.get(), "units");
+  column.kind = class_of(dataset.get()) == H5T_STRING ? Kind::text : Kind::number;
+  column.dataset = std::move(dataset);
+  return column;
+}
+
+Cells read_cells(hid_t dataset, Kind kind, const Shape& shape, std::int64_t begin,
+                 std::int64_t count) {
+  if (kind == Kind::text) return hdf5::read_texts(dataset, shape, begin, count);
+  std::vector<double> values(static_cast<std::size_t>(count));
+  hdf5::read_range(dataset, H5T_NATIVE_DOUBLE, shape, begin, count, values.data());
+  return values;
+}
+
+/// Texts[value] of every number; `other` where there is none.
+template <class Texts>
+std::vector<std::string> words(const Cells& cells, const Texts& texts, const std::string& other) {
+  std::vector<std::string> result;
+  for (const double value : std::get<std::vector<double>>(cells)) {
+    const bool known = value >= 0.0 && value < static_cast<double>(texts.size());
+    result.emplace_back(known ? std::string(texts[static_cast<std::size_t>(value)]) : other);
+  }
+  return result;
+}
+
+}  // namespace
+
+PointTable::PointTable(const std::string& path) : path_(path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "is no file that can be read");
+  file_ = hdf5::open_file_to_read(path);
+  if (!is_dataset(file_.get(), "status")) refuse(path, "is no result of a study: it has no status");
+  const Handle status = open(file_.get(), "status");
+  shape_ = hdf5::shape_of(status.get());
+  dimensions_ = dimensions_of(status.get(), shape_.size());
+  for (const std::int64_t length : shape_) {
+    if (length <= 0 || points_ > kMostPoints / length) refuse(path, "has an impossible shape");
+    points_ *= length;
+  }
+  add_coordinates();
+  add_variables();
+}
+
+void PointTable::add_coordinates() {
+  std::int64_t stride = points_;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    stride /= shape_[d];
+    if (dimensions_[d].empty()) refuse(path_, "has a dimension without a coordinate");
+    PointColumn column = make_column(open(file_.get(), dimensions_[d]), dimensions_[d]);
+    const Shape shape = hdf5::shape_of(column.dataset.get());
+    if (shape != Shape{shape_[d]}) refuse(path_, "has a coordinate of the wrong length");
+    if (shape_.size() > 1 || shape_[d] < (1 << 16)) {
+      column.values = read_cells(column.dataset.get(), column.kind, shape, 0, shape[0]);
+      column.stride = stride;
+    }
+    columns_.push_back(std::move(column));
+  }
+  std::istringstream names(text_attribute(open(file_.get(), "status").get(), "coordinates"));
+  for (std::string name; names >> name;) {
+    Handle dataset = open(file_.get(), name);
+    if (hdf5::shape_of(dataset.get()) != shape_) refuse(path_, "has an odd coordinate " + name);
+    columns_.push_back(make_column(std::move(dataset), name));
+  }
+}
+
+void PointTable::add_variables() {
+  const auto known = [&](const std::string& name) {
+    return std::any_of(columns_.begin(), columns_.end(),
+                       [&](const PointColumn& column) { return column.name == name; });
+  };
+  for (const std::string& name : names_in(file_.get())) {
+    if (name == "status" || name == "failure_code" || known(name)) continue;
+    if (!is_dataset(file_.get(), name)) continue;
+    Handle dataset = open(file_.get(), name);
+    const H5T_class_t type = class_of(dataset.get());
+    if (type != H5T_FLOAT && type != H5T_INTEGER) continue;
+    if (hdf5::shape_of(dataset.get()) != shape_ || H5DSis_scale(dataset.get()) > 0) continue;
+    if (dimensions_of(dataset.get(), shape_.size()) != dimensions_) continue;
+    columns_.push_back(make_column(std::move(dataset), name));
+  }
+  columns_.push_back(make_column(open(file_.get(), "status"), "status"));
+  columns_.back().kind = Kind::status;
+  if (!is_dataset(file_.get(), "failure_code") || !is_dataset(file_.get(), "failure")) return;
+  Handle codes = open(file_.get(), "failure_code");
+  const Handle table = open(file_.get(), "failure");
+  const Shape length = hdf5::shape_of(table.get());
+  if (hdf5::shape_of(codes.get()) != shape_ || length.size() != 1 || length[0] > kMostReasons) {
+    refuse(path_, "has a damaged table of failures");
+  }
+  reasons_ = hdf5::read_texts(table.get(), length, 0, length[0]);
+  if (!reasons_.empty()) reasons_[0].clear();
+  columns_.push_back(make_column(std::move(codes), "failure"));
+  columns_.back().kind = Kind::failure;
+}
+
+Cells PointTable::read(const PointColumn& column, std::int64_t begin, std::int64_t count) const {
+  if (column.stride > 0) {
+    return std::visit(
+        [&](const auto& values) -> Cells {
+          std::decay_t<decltype(values)> cells;
+          const auto length = static_cast<std::int64_t>(values.size());
+          for (std::int64_t i = begin; i < begin + count; ++i) {
+            cells.push_back(values[static_cast<std::size_t>(i / column.stride % length)]);
+          }
+          return cells;
+        },
+        column.values);
+  }
+  const Kind stored = column.kind == Kind::text ? Kind::text : Kind::number;
+  Cells cells = read_cells(column.dataset.get(), stored, shape_, begin, count);
+  if (column.kind == Kind::status) return words(cells, kStatusWords, "unknown");
+  if (column.kind == Kind::failure) return words(cells, reasons_, "unknown");
+  return cells;
+}
+
+}  // namespace millstudy::io

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/hdf5.h"
+
+namespace millstudy::io {
+
+/// Values of one column at successive points: numbers, or texts.
+using Cells = std::variant<std::vector<double>, std::vector<std::string>>;
+
+/// One column of a result seen as a table with a row for every point.
+struct PointColumn {
+  enum class Kind { number, text, status, failure };
+  std::string name;
+  std::string units;
+  Kind kind = Kind::number;
+  hdf5::Handle dataset;
+  /// Coordinate of a grid: all its values, and how many points each lasts; 0 if it varies by point.
+  Cells values;
+  std::int64_t stride = 0;
+};
+
+/// A result file as a table: coordinates first, then the variables in the order of the file, then
+/// status and the reason of failure. Read in pieces, so memory does not grow with the points.
+class PointTable {
+ public:
+  /// @throws core::InputError if the file is no result; hdf5::Error if it is damaged
+  explicit PointTable(const std::string& path);
+
+  std::int64_t points() const { return points_; }
+  const std::vector<PointColumn>& columns() const { return columns_; }
+
+  /// Cells of points begin .. begin + count - 1: texts for texts, status ("ok", ...) and failure
+  /// (empty where none), numbers for the rest.
+  Cells read(const PointColumn& column, std::int64_t begin, std::int64_t count) const;
+
+ private:
+  void add_coordinates();
+  void add_variables();
+
+  std::string path_;
+  hdf5::Handle file_;
+  Shape shape_;
+  std::vector<std::string> dimensions_;
+  std::int64_t points_ = 1;
+  std::vector<std::string> reasons_;
+  std::vector<PointColumn> columns_;
+};
+
+}  // namespace millstudy::io

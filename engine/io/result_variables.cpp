@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "io/result_variables.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "io/hdf5_text.h"
+
+namespace millstudy::io {
+namespace {
+
+using hdf5::Handle;
+
+constexpr std::int64_t kChunkElements = 1 << 16;
+constexpr int kGzip = 1;  // measured: higher levels buy nothing on results
+
+struct Description {
+  std::string units;
+  std::string long_name;
+};
+
+/// A dimension without values of its own; the title is netCDF's own mark for it.
+Handle create_bare_scale(hid_t file, const std::string& name) {
+  Handle scale =
+      hdf5::create_dataset(file, name, H5T_IEEE_F32BE, {0},
+                           {.chunk = {kChunkElements}, .unlimited = true, .allocate = false});
+  hdf5::make_scale(scale.get(),
+                   fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", 0));
+  return scale;
+}
+
+void describe(hid_t dataset, const Description& description) {
+  hdf5::write_attribute(dataset, "units", description.units);
+  hdf5::write_attribute(dataset, "long_name", description.long_name);
+}
+
+/// Makes the variables of one file; knows its dimensions.
+class Builder {
+ public:
+  Builder(hid_t file, const sweep::Layout& layout)
+      : file_(file), layout_(layout), chunk_(row_major_chunk(layout.shape, kChunkElements)) {
+    if (is_grid()) {
+      for (const sweep::Coordinate& coordinate : layout.coordinates) {
+        scales_.push_back(create_coordinate(coordinate));
+        hdf5::make_scale(scales_.back().get(), coordinate.name);
+      }
+      return;
+    }
+    scales_.push_back(create_point_numbers());
+    for (const sweep::Coordinate& coordinate : layout.coordinates) {
+      const Handle dataset = create_coordinate(coordinate);
+      hdf5::attach_scale(dataset.get(), scales_[0].get(), 0);
+      if (!auxiliary_.empty()) auxiliary_ += ' ';
+      auxiliary_ += coordinate.name;
+    }
+  }
+
+  template <class T>
+  ChunkStream<T> create(const std::string& name, hid_t type, const Description& description) {
+    hdf5::DatasetOptions options{.chunk = chunk_, .gzip = kGzip};
+    if (std::is_same_v<T, double>) options.fill = std::numeric_limits<double>::quiet_NaN();
+    Handle dataset = hdf5::create_dataset(file_, name, type, layout_.shape, options);
+    describe(dataset.get(), description);
+    if (!auxiliary_.empty()) hdf5::write_attribute(dataset.get(), "coordinates", auxiliary_);
+    for (std::size_t d = 0; d < scales_.size(); ++d) {
+      hdf5::attach_scale(dataset.get(), scales_[d].get(), d);
+    }
+    return {std::move(dataset), layout_.shape, chunk_};
+  }
+
+ private:
+  /// A grid has a dimension for every coordinate; the other designs have one for all.
+  bool is_grid() const {
+    if (layout_.dimensions.size() != layout_.coordinates.size()) return false;
+    for (std::size_t d = 0; d < layout_.dimensions.size(); ++d) {
+      if (layout_.dimensions[d] != layout_.coordinates[d].name) return false;
+    }
+    return true;
+  }
+
+  Handle create_coordinate(const sweep::Coordinate& coordinate) {
+    Handle dataset;
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&coordinate.values)) {
+      dataset = hdf5::create_texts(file_, coordinate.name, *texts);
+    } else {
+      const auto& values = std::get<std::vector<double>>(coordinate.values);
+      const Shape shape = {static_cast<std::int64_t>(values.size())};
+      dataset = hdf5::create_dataset(file_, coordinate.name, H5T_IEEE_F64LE, shape);
+      hdf5::write_range(dataset.get(), H5T_NATIVE_DOUBLE, shape, 0, shape[0], values.data());
+    }
+    describe(dataset.get(), {coordinate.units, coordinate.long_name});
+    hdf5::write_attribute(dataset.get(), "study_key", coordinate.key);
+    return dataset;
+  }
+
+  Handle create_point_numbers() {
+    Handle dataset = hdf5::create_dataset(file_, layout_.dimensions.at(0), H5T_STD_I64LE,
+                                          layout_.shape, {.chunk = chunk_, .gzip = kGzip});
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(chunk_[0]));
+    for (std::int64_t begin = 0; begin < layout_.shape[0]; begin += chunk_[0]) {
+      std::iota(numbers.begin(), numbers.end(), begin);
+      hdf5::write_range(dataset.get(), H5T_NATIVE_INT64, layout_.shape, begin,
+                        std::min(chunk_[0], layout_.shape[0] - begin), numbers.data());
+    }
+    hdf5::make_scale(dataset.get(), layout_.dimensions[0]);
+    describe(dataset.get(), {"1", "point number"});
+    return dataset;
+  }
+
+  hid_t file_;
+  const sweep::Layout& layout_;
+  Shape chunk_;
+  std::vector<Handle> scales_;
+  std::string auxiliary_;  // names of the coordinates that are no dimension
+};
+
+TraceVariables create_traces(hid_t file, Builder& builder) {
+  TraceVariables traces{
+      builder.create<std::int64_t>("trace_start", H5T_STD_I64LE,
+                                   {"1", "first sample of the trace of a point"}),
+      builder.create<std::int64_t>("trace_count", H5T_STD_I64LE,
+                                   {"1", "number of samples of the trace of a point"}),
+      {},
+      create_bare_scale(file, "sample")};
+  hdf5::write_attribute(traces.count.dataset(), "sample_dimension", std::string("sample"));
+  const std::array<std::pair<const char*, Description>, 5> kSamples = {{
+      {"trace_time", {"s", "time"}},
+      {"trace_angle", {"rad", "spindle angle"}},
+      {"trace_force_x", {"N", "force on the tool along x"}},
+      {"trace_force_y", {"N", "force on the tool along y"}},
+      {"trace_force_z", {"N", "force on the tool along z"}},
+  }};
+  for (const auto& [name, description] : kSamples) {
+    Handle dataset =
+        hdf5::create_dataset(file, name, H5T_IEEE_F32LE, {0},
+                             {.chunk = {kChunkElements}, .unlimited = true, .gzip = kGzip});
+    describe(dataset.get(), description);
+    hdf5::attach_scale(dataset.get(), traces.sample_scale.get(), 0);
+    traces.samples.emplace_back(std::move(dataset), Shape{0}, Shape{kChunkElements});
+  }
+  return traces;
+}
+
+}  // namespace
+
+void TraceVariables::append(const sweep::Block& block) {
+  for (std::int64_t i = 0; i < block.count; ++i) {
+    const sweep::Trace& trace = block.traces.at(static_cast<std::size_t>(i));
+    const bool ok = block.status[static_cast<std::size_t>(i)] == sweep::Status::ok;
+    const auto length = ok ? static_cast<std::int64_t>(trace.time.size()) : 0;
+    start.append({&written, 1});
+    count.append({&length, 1});
+    if (!ok) continue;
+    const std::array<const std::vector<float>*, 5> parts = {
+        &trace.time, &trace.angle, &trace.force_x, &trace.force_y, &trace.force_z};
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (parts[k]->size() != trace.time.size()) throw std::logic_error("a trace is ragged");
+      samples[k].append(*parts[k]);
+    }
+    written += length;
+  }
+}
+
+void TraceVariables::flush() {
+  start.flush();
+  count.flush();
+  for (ChunkStream<float>& stream : samples) stream.flush();
+  hdf5::extend(sample_scale.get(), written);
+}
+
+ResultVariables create_variables(hid_t file, const sweep::Layout& layout) {
+  Builder builder(file, layout);
+  std::vector<ChunkStream<double>> columns;
+  for (const sweep::Column& column : layout.columns) {
+    columns.push_back(
+        builder.create<double>(column.name, H5T_IEEE_F64LE, {column.units, column.long_name}));
+  }
+  ResultVariables variables{
+      std::move(columns),
+      builder.create<std::int8_t>("status", H5T_STD_I8LE, {"1", "what happened to the point"}),
+      builder.create<std::int32_t>("failure_code", H5T_STD_I32LE,
+                                   {"1", "index of the reason in failure"}),
+      {}};
+  const std::array<std::int8_t, 4> flags = {0, 1, 2, 3};
+  hdf5::write_attribute(variables.status.dataset(), "flag_values", flags);
+  hdf5::write_attribute(variables.status.dataset(), "flag_meanings",
+                        std::string("ok failed skipped not_run"));
+  if (layout.traces) variables.traces.push_back(create_traces(file, builder));
+  return variables;
+}
+
+void write_failures(hid_t file, const std::vector<std::string>& reasons) {
+  const Handle table = hdf5::create_texts(file, "failure", reasons);
+  hdf5::make_scale(table.get(), "failure");
+  describe(table.get(), {"1", "why a point failed, by failure_code"});
+}
+
+}  // namespace millstudy::io

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "io/chunk_stream.h"
+#include "sweep/block.h"
+#include "sweep/layout.h"
+
+namespace millstudy::io {
+
+/// Time histories of all points, one after another: CF contiguous ragged arrays.
+struct TraceVariables {
+  ChunkStream<std::int64_t> start;
+  ChunkStream<std::int64_t> count;
+  std::vector<ChunkStream<float>> samples;  ///< time, angle, force_x, force_y, force_z
+  hdf5::Handle sample_scale;
+  std::int64_t written = 0;  ///< samples
+
+  void append(const sweep::Block& block);
+  void flush();
+};
+
+/// The variables of a result file that take a value for every point.
+struct ResultVariables {
+  std::vector<ChunkStream<double>> columns;
+  ChunkStream<std::int8_t> status;
+  ChunkStream<std::int32_t> failure_code;
+  std::vector<TraceVariables> traces;  ///< one, or none
+};
+
+/// Makes dimensions, coordinates and empty variables in a new file (docs/result_file.md).
+ResultVariables create_variables(hid_t file, const sweep::Layout& layout);
+
+/// Writes the table that failure_code points into, on its own dimension.
+void write_failures(hid_t file, const std::vector<std::string>& reasons);
+
+}  // namespace millstudy::io
