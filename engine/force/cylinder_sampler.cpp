@@ -29,8 +29,9 @@ HarmonicBasis density_of(const cutter::Cutter& cutter) {
 
 /// Taylor terms of the integral of p from an angle on: term m is p^(m)(angle) / (m + 1)!, times
 /// factor; signs alternate when the integral runs backward (direction -1).
-SamplingRun::Taylor taylor_of(const Harmonics& p, double angle, double factor, double direction) {
-  const Harmonics q = shifted(p, std::cos(angle), std::sin(angle));
+SamplingRun::Taylor taylor_of(const Harmonics& p, const Angle& angle, double factor,
+                              double direction) {
+  const Harmonics q = shifted(p, angle);
   Row c1 = q.cos1, s1 = q.sin1, c2 = q.cos2, s2 = q.sin2;
   SamplingRun::Taylor terms;
   for (int m = 0; m < SamplingRun::kTaylorTerms; ++m) {
@@ -57,8 +58,8 @@ Harmonics integral_of(const Harmonics& p, double factor) {
   return integral;
 }
 
-Row value_at(const Harmonics& p, double angle) {
-  const Harmonics q = shifted(p, std::cos(angle), std::sin(angle));
+Row value_at(const Harmonics& p, const Angle& angle) {
+  const Harmonics q = shifted(p, angle);
   Row value;
   for (int row = 0; row < kRows; ++row) value[row] = q.constant[row] + q.cos1[row] + q.cos2[row];
   return value;
@@ -94,11 +95,13 @@ Row scaled(Row row, double factor) {
 
 CylinderEdge::CylinderEdge(const cutter::Cutter& cutter, const Engagement& engagement, double z1,
                            double z2)
-    : engagement_(engagement),
-      height_(z2 - z1),
-      lag_(lag_over(cutter, z2 - z1)),
+    : entry_(engagement.entry_angle),
+      exit_(engagement.exit_angle),
       high_shift_(-std::min(cutter::lag_rate(cutter) * z1, cutter::lag_rate(cutter) * z2)),
       low_shift_(-std::max(cutter::lag_rate(cutter) * z1, cutter::lag_rate(cutter) * z2)),
+      lag_(lag_over(cutter, z2 - z1)),
+      ramp_(std::min(lag_, exit_.value - entry_.value)),
+      per_lag_((z2 - z1) / lag_),
       closed_(hand(cutter) > 0.0 ? Closed::above : Closed::below),
       density_(density_of(cutter)),
       whole_([&](double tip_angle) {
@@ -108,58 +111,44 @@ CylinderEdge::CylinderEdge(const cutter::Cutter& cutter, const Engagement& engag
       }) {}
 
 /// (F13): the three stretches of a pass, by the immersion angles high and low of the edge's ends.
-void CylinderEdge::add_to(SamplingRun& run, const Combination& with) const {
-  const double entry = engagement_.entry_angle;
-  const double exit = engagement_.exit_angle;
-  const Harmonics density = density_.combine(with);
-  const bool whole_fits = lag_ <= exit - entry;
-  const Harmonics middle =
-      whole_fits ? whole_.combine(with) : between_limits(density, entry, exit, height_ / lag_);
-  const double from = whole_fits ? entry - low_shift_ : exit - high_shift_;
-  const double to = whole_fits ? exit - high_shift_ : entry - low_shift_;
+void CylinderEdge::add_to(SamplingRun& run) const {
+  const double width = exit_.value - entry_.value;
+  const Harmonics density = density_.combine(run.with());
+  const Harmonics middle = lag_ <= width
+                               ? whole_.combine(run.with())
+                               : between_limits(density, entry_.value, exit_.value, per_lag_);
+  const double from = entry_.value - high_shift_.value + ramp_;
+  const double to = exit_.value - low_shift_.value - ramp_;
   run.for_each_pass(from, to, [&](const Pass& pass) {
     run.add(pass, run.between(pass, from, to, closed_), middle);
   });
-  if (std::min(lag_, exit - entry) < kShortRamp) {
-    add_short_ramps(run, density);
-  } else {
-    add_long_ramps(run, density);
-  }
+  ramp_ < kShortRamp ? add_short_ramps(run, density) : add_long_ramps(run, density);
 }
 
 void CylinderEdge::add_short_ramps(SamplingRun& run, const Harmonics& density) const {
-  const double entry = engagement_.entry_angle;
-  const double exit = engagement_.exit_angle;
-  const double length = std::min(lag_, exit - entry);
-  const double entering = entry - high_shift_;  // tip angles at which the ramps begin and end
-  const double leaving = exit - low_shift_;
-  const SamplingRun::Taylor up = taylor_of(density, entry, height_ / lag_, 1.0);
-  const SamplingRun::Taylor down = taylor_of(density, exit, height_ / lag_, -1.0);
+  const double entering = entry_.value - high_shift_.value;  // tip angle of the first contact
+  const double leaving = exit_.value - low_shift_.value;     // and of the last
+  const SamplingRun::Taylor up = taylor_of(density, entry_, per_lag_, 1.0);
+  const SamplingRun::Taylor down = taylor_of(density, exit_, per_lag_, -1.0);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
-    run.add_taylor(pass, run.between(pass, entering, entering + length, closed_), up, 1.0,
-                   entering);
-    run.add_taylor(pass, run.between(pass, leaving - length, leaving, closed_), down, -1.0,
-                   leaving);
+    run.add_taylor(pass, run.between(pass, entering, entering + ramp_, closed_), up, 1.0, entering);
+    run.add_taylor(pass, run.between(pass, leaving - ramp_, leaving, closed_), down, -1.0, leaving);
   });
 }
 
 void CylinderEdge::add_long_ramps(SamplingRun& run, const Harmonics& density) const {
-  const double entry = engagement_.entry_angle;
-  const double exit = engagement_.exit_angle;
-  const double length = std::min(lag_, exit - entry);
-  const double entering = entry - high_shift_;
-  const double leaving = exit - low_shift_;
-  const double factor = height_ / lag_;
-  const Harmonics integral = integral_of(density, factor);
-  const Row slope = scaled(density.constant, factor);
-  Harmonics up = shifted(integral, std::cos(high_shift_), std::sin(high_shift_));
-  up.constant = scaled(value_at(integral, entry), -1.0);
-  Harmonics down = negative(shifted(integral, std::cos(low_shift_), std::sin(low_shift_)));
-  down.constant = value_at(integral, exit);
+  const double entering = entry_.value - high_shift_.value;
+  const double leaving = exit_.value - low_shift_.value;
+  const Harmonics integral = integral_of(density, per_lag_);
+  const Row slope = scaled(density.constant, per_lag_);
+  const Row opposite = scaled(slope, -1.0);
+  Harmonics up = shifted(integral, high_shift_);
+  up.constant = scaled(value_at(integral, entry_), -1.0);
+  Harmonics down = negative(shifted(integral, low_shift_));
+  down.constant = value_at(integral, exit_);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
-    run.add(pass, run.between(pass, entering, entering + length, closed_), up, slope, entering);
-    run.add(pass, run.between(pass, leaving - length, leaving, closed_), down, scaled(slope, -1.0),
-            leaving);
+    run.add(pass, run.between(pass, entering, entering + ramp_, closed_), up, slope, entering);
+    run.add(pass, run.between(pass, leaving - ramp_, leaving, closed_), down, opposite, leaving);
   });
 }
 

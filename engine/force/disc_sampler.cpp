@@ -69,8 +69,8 @@ DiscEdge::DiscEdge(const cutter::Cutter& cutter, const Engagement& engagement, i
 
 /// (F12), disc by disc: each is in cut over one range of angles a pass, so there is no gate in the
 /// loop over angles.
-void DiscEdge::add_to(SamplingRun& run, const Combination& with) const {
-  const UnitSlices units = unit_slices(with);
+void DiscEdge::add_to(SamplingRun& run) const {
+  const UnitSlices units = unit_slices(run.with());
   for (const Turned& turned : discs_) {
     const Disc& disc = turned.disc;
     const std::array<double, 4> inputs = {1.0, disc.sin_kappa, disc.cos_kappa, disc.radius};

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 #include "core/units.h"
+#include "force/lanes.h"
 #include "force/slice.h"
 
 namespace millstudy::force {
@@ -44,60 +49,98 @@ struct Combination {
   double sin_direction;
 
   /// Turns the x and y of one row of forces.
-  void turn(std::array<double, kRows>& force) const {
+  void turn(double* force) const {
     const double x = force[0];
     force[0] = x * cos_direction - force[1] * sin_direction;
     force[1] = x * sin_direction + force[1] * cos_direction;
   }
-
-  /// The force (rows x, y, z, torque) of a basis in machine axes.
-  std::array<double, kRows> operator()(const Basis<double>& basis) const {
-    std::array<double, kRows> force = apply(basis, load);
-    turn(force);
-    return force;
-  }
 };
 
-/// Harmonics whose coefficients still wait for feed and cutting-force coefficients: geometry only.
-class HarmonicBasis {
+/// Rows of forces that still wait for feed and cutting-force coefficients: geometry only, laid out
+/// for combine().
+class PreparedRows {
  public:
-  HarmonicBasis() = default;
-
-  /// From a function basis(angle) of the form above, by a discrete Fourier transform of five
-  /// samples, which is exact for it.
-  template <class Function>
-  explicit HarmonicBasis(const Function& basis) {
-    constexpr int kSamples = 5;
-    for (int i = 0; i < kSamples; ++i) {
-      const double angle = 2.0 * core::kPi * i / kSamples;
-      const Basis<double> sample = basis(angle);
-      add(constant_, sample, 1.0 / kSamples);
-      add(cos1_, sample, 2.0 / kSamples * std::cos(angle));
-      add(sin1_, sample, 2.0 / kSamples * std::sin(angle));
-      add(cos2_, sample, 2.0 / kSamples * std::cos(2.0 * angle));
-      add(sin2_, sample, 2.0 / kSamples * std::sin(2.0 * angle));
-    }
+  explicit PreparedRows(std::size_t rows = 0)
+      : rows_(rows), padded_((kRows * rows + kLanes - 1) / kLanes * kLanes) {
+    for (std::vector<double>& column : columns_) column.assign(padded_, 0.0);
   }
 
-  Harmonics combine(const Combination& with) const {
-    return {with(constant_), with(cos1_), with(sin1_), with(cos2_), with(sin2_)};
-  }
+  std::size_t rows() const { return rows_; }
 
- private:
-  static void add(Basis<double>& sum, const Basis<double>& term, double factor) {
-    for (int row = 0; row < kRows; ++row) {
+  /// Adds factor times a basis to one row.
+  void add(std::size_t row, const Basis<double>& basis, double factor) {
+    for (int component = 0; component < kRows; ++component) {
       for (int column = 0; column < kColumns; ++column) {
-        sum.chip[row][column] += factor * term.chip[row][column];
-        sum.edge[row][column] += factor * term.edge[row][column];
+        const std::size_t at = kRows * row + component;
+        columns_[column][at] += factor * basis.chip[component][column];
+        columns_[kColumns + column][at] += factor * basis.edge[component][column];
       }
     }
   }
 
-  Basis<double> constant_;
-  Basis<double> cos1_;
-  Basis<double> sin1_;
-  Basis<double> cos2_;
-  Basis<double> sin2_;
+  /// Largest entry of a row over all loads.
+  double largest(std::size_t row) const {
+    double largest = 0.0;
+    for (const std::vector<double>& column : columns_) {
+      for (int i = 0; i < kRows; ++i) {
+        largest = std::max(largest, std::abs(column[kRows * row + i]));
+      }
+    }
+    return largest;
+  }
+
+  /// The rows under the loads, in machine axes, times factor. `to` holds padded() values.
+  void combine(const Combination& with, double factor, double* to) const {
+    std::array<double, 2 * kColumns> load_of = with.load;
+    for (double& value : load_of) value *= factor;
+    for (std::size_t at = 0; at < padded_; at += kLanes) {
+      Lanes sum{};
+      for (int column = 0; column < 2 * kColumns; ++column) {
+        sum += load_of[column] * load(&columns_[column][at]);
+      }
+      std::memcpy(to + at, &sum, sizeof sum);
+    }
+    for (std::size_t row = 0; row < rows_; ++row) with.turn(to + kRows * row);
+  }
+
+  std::size_t padded() const { return padded_; }
+
+ private:
+  std::size_t rows_;
+  std::size_t padded_;
+  std::array<std::vector<double>, 2 * kColumns> columns_;  // each of shape (rows, kRows), padded
+};
+
+/// Harmonics of geometry only.
+class HarmonicBasis {
+ public:
+  /// From a function basis(angle) of the form above, by a discrete Fourier transform of five
+  /// samples, which is exact for it.
+  template <class Function>
+  explicit HarmonicBasis(const Function& basis) : rows_(kHarmonics) {
+    for (int i = 0; i < kHarmonics; ++i) {
+      const double angle = 2.0 * core::kPi * i / kHarmonics;
+      const Basis<double> sample = basis(angle);
+      rows_.add(0, sample, 1.0 / kHarmonics);
+      rows_.add(1, sample, 2.0 / kHarmonics * std::cos(angle));
+      rows_.add(2, sample, 2.0 / kHarmonics * std::sin(angle));
+      rows_.add(3, sample, 2.0 / kHarmonics * std::cos(2.0 * angle));
+      rows_.add(4, sample, 2.0 / kHarmonics * std::sin(2.0 * angle));
+    }
+  }
+
+  Harmonics combine(const Combination& with) const {
+    std::array<double, kRows * kHarmonics + kLanes> values;
+    rows_.combine(with, 1.0, values.data());
+    std::array<double, kRows * kHarmonics> rows;
+    std::copy_n(values.begin(), rows.size(), rows.begin());
+    return std::bit_cast<Harmonics>(rows);
+  }
+
+ private:
+  static constexpr int kHarmonics = 5;
+  static_assert(sizeof(Harmonics) == kHarmonics * kRows * sizeof(double));
+  PreparedRows rows_;
 };
 
 }  // namespace millstudy::force

@@ -24,14 +24,11 @@ inline constexpr Lanes kLaneIndex = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
   return lanes;
 }
 
-/// Adds the first `count` lanes (all from 8 on) to memory.
+/// Adds the first `count` lanes (all from 8 on) to memory, of which all eight must be there.
 [[gnu::always_inline]] inline void add_to(double* to, const Lanes& lanes, int count) {
-  if (count >= kLanes) {
-    const Lanes sum = load(to) + lanes;
-    std::memcpy(to, &sum, sizeof sum);
-    return;
-  }
-  for (int i = 0; i < count; ++i) to[i] += lanes[i];
+  const Lanes counted = kLaneIndex < Lanes{} + static_cast<double>(count) ? lanes : Lanes{};
+  const Lanes sum = load(to) + counted;
+  std::memcpy(to, &sum, sizeof sum);
 }
 
 [[gnu::always_inline]] inline Lanes square_root(Lanes lanes) {

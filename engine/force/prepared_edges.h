@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <cmath>
 #include <vector>
 
 #include "cutter/cutter.h"
@@ -14,23 +14,36 @@
 /// immutable; add_to() adds the tooth's passes to a run.
 namespace millstudy::force {
 
+/// An angle with its cosine and sine.
+struct Angle {
+  explicit Angle(double angle) : value(angle), cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  double value;  ///< [rad]
+  double cosine;
+  double sine;
+};
+
+inline Harmonics shifted(const Harmonics& p, const Angle& shift) {
+  return shifted(p, shift.cosine, shift.sine);
+}
+
 /// A cylindrical edge between two heights, in closed form (F9), (F13).
 class CylinderEdge {
  public:
   /// @param z1, z2  heights on the cylinder [mm], z1 < z2
   CylinderEdge(const cutter::Cutter& cutter, const Engagement& engagement, double z1, double z2);
-  void add_to(SamplingRun& run, const Combination& with) const;
+  void add_to(SamplingRun& run) const;
 
  private:
-  void add_ramps(SamplingRun& run, const Combination& with, const Harmonics& density) const;
   void add_short_ramps(SamplingRun& run, const Harmonics& density) const;
   void add_long_ramps(SamplingRun& run, const Harmonics& density) const;
 
-  Engagement engagement_;
-  double height_;
-  double lag_;         ///< of the top behind the bottom [rad], > 0
-  double high_shift_;  ///< largest immersion angle on the edge, less that of the tip [rad]
-  double low_shift_;   ///< smallest, likewise
+  Angle entry_;
+  Angle exit_;
+  Angle high_shift_;  ///< largest immersion angle on the edge, less that of the tip
+  Angle low_shift_;   ///< smallest, likewise
+  double lag_;        ///< their difference [rad], > 0
+  double ramp_;       ///< tip angle from the first contact to the fullest [rad]
+  double per_lag_;    ///< height over lag [mm/rad]
   Closed closed_;
   HarmonicBasis density_;  ///< per height [1/mm], in the angle of the point itself
   HarmonicBasis whole_;    ///< the edge all in cut, in the angle of the tip
@@ -41,25 +54,24 @@ class CurvedEdge {
  public:
   /// @param top  [mm], 0 < top <= R
   CurvedEdge(const cutter::Cutter& cutter, const Engagement& engagement, double top);
-  void add_to(SamplingRun& run, const Combination& with) const;
+  void add_to(SamplingRun& run) const;
 
  private:
-  using Series = std::vector<Basis<double>>;
-
   double entry_angle_;
   double exit_angle_;
   double hand_;
   double lag_;
   HarmonicBasis whole_;
-  Series at_entry_;  ///< U_entry(l): edge from the tip up to where it stands at the entry angle
-  Series at_exit_;   ///< U_exit(l)
+  PreparedRows
+      at_entry_;  ///< U_entry(l): edge from the tip up to where it stands at the entry angle
+  PreparedRows at_exit_;  ///< U_exit(l)
 };
 
 /// Equal-height discs (F12).
 class DiscEdge {
  public:
   DiscEdge(const cutter::Cutter& cutter, const Engagement& engagement, int discs);
-  void add_to(SamplingRun& run, const Combination& with) const;
+  void add_to(SamplingRun& run) const;
 
  private:
   struct Turned {

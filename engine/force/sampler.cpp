@@ -52,10 +52,10 @@ struct ForceSampler::Geometry {
     if (top < depth) cylinder.emplace(cutter, engagement, top, depth);
   }
 
-  void add_to(SamplingRun& run, const Combination& with) const {
-    if (curved) curved->add_to(run, with);
-    if (cylinder) cylinder->add_to(run, with);
-    if (discs) discs->add_to(run, with);
+  void add_to(SamplingRun& run) const {
+    if (curved) curved->add_to(run);
+    if (cylinder) cylinder->add_to(run);
+    if (discs) discs->add_to(run);
   }
 
   AngleTables tables;
@@ -77,7 +77,9 @@ void ForceSampler::sample(const Coefficients& coefficients, double feed_per_toot
                           double feed_direction, std::int64_t first, std::int64_t count,
                           ForceSamples& out) const {
   const std::int64_t period = geometry_->tables.period;
-  if (static_cast<std::int64_t>(out.x.size()) < count) out.resize(count);
+  // Whole vectors are written, so there must be room for one that begins at the last sample.
+  const std::size_t room = count + kLanes;
+  if (out.x.size() < room) out.resize(room);
   const std::array<double*, kRows> rows = {out.x.data(), out.y.data(), out.z.data(),
                                            out.torque.data()};
   const double direction = std::remainder(feed_direction, 2.0 * core::kPi);
@@ -90,9 +92,10 @@ void ForceSampler::sample(const Coefficients& coefficients, double feed_per_toot
   const std::int64_t before_wrap = std::min(fresh, period - begin);
   const auto add_run = [&](std::int64_t from, std::int64_t to, std::int64_t at) {
     if (from >= to) return;
-    SamplingRun run(geometry_->tables, direction, {static_cast<int>(from), static_cast<int>(to)},
+    SamplingRun run(geometry_->tables, direction, with,
+                    {static_cast<int>(from), static_cast<int>(to)},
                     {rows[0] + at, rows[1] + at, rows[2] + at, rows[3] + at});
-    geometry_->add_to(run, with);
+    geometry_->add_to(run);
   };
   add_run(begin, begin + before_wrap, 0);
   add_run(0, fresh - before_wrap, before_wrap);

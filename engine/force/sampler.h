@@ -42,8 +42,8 @@ class ForceSampler {
   /// @param feed_direction  theta, counter-clockwise from machine x [rad], any
   /// @param first           may run on over revolutions without losing digits; negative is allowed
   /// @param count           >= 0
-  /// @param out             overwritten from 0; its arrays grow to count but never shrink, so that
-  ///                        one buffer serves many calls
+  /// @param out             overwritten from 0; its arrays grow to count + 8 but never shrink, so
+  ///                        that one buffer serves many calls; what is beyond count is of no use
   void sample(const Coefficients& coefficients, double feed_per_tooth, double feed_direction,
               std::int64_t first, std::int64_t count, ForceSamples& out) const;
 

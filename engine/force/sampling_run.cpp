@@ -13,7 +13,8 @@ namespace millstudy::force {
 AngleTables::AngleTables(int angular_steps, int flute_count)
     : flutes(flute_count),
       period(angular_steps / std::gcd(angular_steps, flute_count)),
-      step(2.0 * core::kPi / angular_steps) {
+      step(2.0 * core::kPi / angular_steps),
+      steps_per_rad(angular_steps / (2.0 * core::kPi)) {
   const int padded = period + kLanes;
   for (int n = 0; n < padded; ++n) {
     const double angle = 2.0 * core::kPi * n / angular_steps;
@@ -28,12 +29,11 @@ AngleTables::AngleTables(int angular_steps, int flute_count)
   }
 }
 
-SamplingRun::SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
-                         std::array<double*, kRows> rows)
+SamplingRun::SamplingRun(const AngleTables& tables, double direction, const Combination& with,
+                         IndexRange indices, std::array<double*, kRows> rows)
     : tables_(tables),
       direction_(direction),
-      cos_direction_(std::cos(direction)),
-      sin_direction_(std::sin(direction)),
+      with_(with),
       per_pitch_(0.5 * tables.flutes / core::kPi),
       indices_(indices),
       rows_(rows) {}
@@ -44,11 +44,12 @@ Pass SamplingRun::pass(std::int64_t q) const {
   const double c = tables_.cos_pitch[at];
   const double s = tables_.sin_pitch[at];
   return {direction_ + 2.0 * core::kPi * static_cast<double>(q) / tables_.flutes,
-          cos_direction_ * c - sin_direction_ * s, sin_direction_ * c + cos_direction_ * s};
+          with_.cos_direction * c - with_.sin_direction * s,
+          with_.sin_direction * c + with_.cos_direction * s};
 }
 
 IndexRange SamplingRun::between(const Pass& pass, double from, double to, Closed closed) const {
-  const double scale = 1.0 / tables_.step;
+  const double scale = tables_.steps_per_rad;
   const double snap = kAngleSnap * scale;
   const auto first_after = [&](double angle) {
     const double at = (angle - pass.offset) * scale;
@@ -124,8 +125,9 @@ void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor&
   });
 }
 
-void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<Row>& terms,
-                                double sign, double origin, double length) {
+void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
+                                const std::vector<double>& terms, double sign, double origin,
+                                double length) {
   const double from = pass.offset - origin;
   accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
     const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
@@ -136,8 +138,7 @@ void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices, const std:
     // Clenshaw's recurrence, four series abreast.
     Lanes x1{}, y1{}, z1{}, torque1{};
     Lanes x2{}, y2{}, z2{}, torque2{};
-    for (std::size_t m = terms.size(); m-- > 1;) {
-      const Row& term = terms[m];
+    for (const double* term = &terms[terms.size() - kRows]; term > &terms[0]; term -= kRows) {
       const Lanes x0 = term[0] + (twice * x1 - x2);
       const Lanes y0 = term[1] + (twice * y1 - y2);
       const Lanes z0 = term[2] + (twice * z1 - z2);
@@ -145,10 +146,10 @@ void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices, const std:
       x2 = x1, y2 = y1, z2 = z1, torque2 = torque1;
       x1 = x0, y1 = y0, z1 = z0, torque1 = torque0;
     }
-    x = terms[0][0] + (t * x1 - x2);
-    y = terms[0][1] + (t * y1 - y2);
-    z = terms[0][2] + (t * z1 - z2);
-    torque = terms[0][3] + (t * torque1 - torque2);
+    x = terms[0] + (t * x1 - x2);
+    y = terms[1] + (t * y1 - y2);
+    z = terms[2] + (t * z1 - z2);
+    torque = terms[3] + (t * torque1 - torque2);
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct AngleTables {
   int flutes;
   int period;   ///< S / gcd(S, flutes): the force at n and n + period is the same
   double step;  ///< 2 pi / S [rad]
+  double steps_per_rad;
   std::vector<double> cos1;
   std::vector<double> sin1;
   std::vector<double> cos2;
@@ -50,20 +52,25 @@ class SamplingRun {
  public:
   using Row = Harmonics::Row;
 
-  /// @param direction  feed direction theta [rad], reduced to +-pi
-  /// @param rows       x, y, z, torque of index `first`, each of last - first values, zeroed
-  SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
-              std::array<double*, kRows> rows);
+  /// @param direction  feed direction theta [rad], reduced to +-pi; with carries its sine, cosine
+  /// @param rows       x, y, z, torque of index `first`, last - first values, zeroed,
+  ///                   and then room for one vector
+  SamplingRun(const AngleTables& tables, double direction, const Combination& with,
+              IndexRange indices, std::array<double*, kRows> rows);
 
-  double step() const { return tables_.step; }
+  /// What the call combines the geometry with.
+  const Combination& with() const { return with_; }
 
   /// Calls visit(pass) for every pass of a tooth whose tip can be between two angles [rad]: tooth
   /// after tooth, turn after turn, for these differ by multiples of the pitch alone.
   template <class Visit>
   void for_each_pass(double from, double to, const Visit& visit) const {
+    constexpr double kMargin = 1e-9;  // an empty pass too many does no harm
     const double whole = tables_.step * tables_.period;
-    const auto first = static_cast<std::int64_t>((from - direction_ - whole) * per_pitch_ - 2.0);
-    const auto last = static_cast<std::int64_t>((to - direction_) * per_pitch_ + 2.0);
+    const auto first =
+        static_cast<std::int64_t>(std::ceil((from - direction_ - whole) * per_pitch_ - kMargin));
+    const auto last =
+        static_cast<std::int64_t>(std::floor((to - direction_) * per_pitch_ + kMargin));
     for (std::int64_t q = first; q <= last; ++q) visit(pass(q));
   }
 
@@ -83,8 +90,8 @@ class SamplingRun {
   void add_taylor(const Pass& pass, IndexRange indices, const Taylor& terms, double sign,
                   double origin);
 
-  /// Adds sum_m terms[m] T_m(2 sqrt(d / length) - 1), d = sign (tip angle - origin).
-  void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<Row>& terms,
+  /// Adds sum_m terms[4 m + row] T_m(2 sqrt(d / length) - 1), d = sign (tip angle - origin).
+  void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
                      double sign, double origin, double length);
 
  private:
@@ -96,8 +103,7 @@ class SamplingRun {
 
   const AngleTables& tables_;
   double direction_;
-  double cos_direction_;
-  double sin_direction_;
+  const Combination& with_;
   double per_pitch_;
   IndexRange indices_;
   std::array<double*, kRows> rows_;
