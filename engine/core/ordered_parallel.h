@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #include <utility>
@@ -48,6 +49,9 @@ std::int64_t ordered_parallel(std::int64_t count, int threads, const std::atomic
     consume(item.first, std::move(item.second));
     ++consumed;
   };
+  // More threads than cores are nobody's wish but a test's; without this they would be cut down.
+  const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_pipeline(

@@ -46,6 +46,11 @@ double radial_immersion(const Case& point) {
   return 0.5 * (std::cos(arc.entry_angle) - std::cos(arc.exit_angle));
 }
 
+double disc_samples(const Case& point) {
+  if (point.edge_rule.rule != force::Rule::discs) return 0.0;
+  return static_cast<double>(point.edge_rule.discs) * point.angular_steps;
+}
+
 double material_removal_rate(const Case& point) {
   // Width swept at height z is r(z) (cos entry - cos exit) = 2 r(z) immersion.
   return feed_rate(point) * 2.0 * radial_immersion(point) *

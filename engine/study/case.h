@@ -50,6 +50,10 @@ force::Engagement engagement(const Case& point);
 double cutting_speed(const Case& point);
 /// Radial depth over diameter, 1 in a slot.
 double radial_immersion(const Case& point);
+/// Discs evaluated for the samples of one revolution and tooth; 0 for the exact rule.
+double disc_samples(const Case& point);
+/// Above this many a revolution takes seconds a tooth: refused.
+inline constexpr double kMostDiscSamples = 1e9;
 /// Volume removed per time [mm3/s]: feed rate times the cross-section of the engaged envelope.
 double material_removal_rate(const Case& point);
 

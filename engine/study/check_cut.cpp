@@ -68,12 +68,11 @@ void check_cut(const Given& given, const Case& base, Faults& faults) {
 }
 
 void check_numerics(const Given& given, const Case& base, Faults& faults) {
-  constexpr double kMostDiscs = 1e9;  // a revolution of these takes seconds a tooth
   if (given.any_swept({"numerics.rule", "numerics.discs", "numerics.angular_steps"})) return;
-  if (base.edge_rule.rule != force::Rule::discs) return;
-  if (static_cast<double>(base.edge_rule.discs) * base.angular_steps <= kMostDiscs) return;
-  faults.add(given.place({"numerics.discs", "numerics.angular_steps"}),
-             fmt::format("numerics.discs x numerics.angular_steps must be <= {:.0e}", kMostDiscs));
+  if (disc_samples(base) <= kMostDiscSamples) return;
+  faults.add(
+      given.place({"numerics.discs", "numerics.angular_steps"}),
+      fmt::format("numerics.discs x numerics.angular_steps must be <= {:.0e}", kMostDiscSamples));
 }
 
 }  // namespace millstudy::study

@@ -60,13 +60,14 @@ Case case_at(const Study& study, std::int64_t point) {
   return result;
 }
 
-sweep::EvaluateBlock block_evaluator(const Study& study) {
+sweep::EvaluateBlock block_evaluator(const Study& study, const std::atomic<bool>* stop) {
   const auto shared = std::make_shared<const Study>(study);
-  return [shared, evaluate = study.kind->make_evaluator()](Block& block) {
+  return [shared, stop, evaluate = study.kind->make_evaluator()](Block& block) {
     std::vector<std::int64_t> indices(shared->axes.size());
     std::vector<double> row(shared->kind->columns.size());
     Case point = shared->base;  // every point of the block sets the same keys
     for (std::int64_t i = 0; i < block.count; ++i) {
+      if (stop && stop->load(std::memory_order_relaxed)) return;
       shared->space.indices(block.first + i, indices);
       apply_axes(*shared, indices, point);
       const bool inside = [&] {

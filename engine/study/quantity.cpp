@@ -24,13 +24,16 @@ constexpr std::array<Quantity, 5> kQuantities = {{
     {"material_removal_rate_cm3_per_min", "cm3/min", true, material_removal_rate},
 }};
 
+bool has_cutter(const Kind& kind) {
+  return kind.find_key("cutter.diameter_mm") != nullptr;
+}
+
 }  // namespace
 
 std::function<std::optional<double>(const Case&)> quantity_named(std::string_view name,
                                                                  const Kind& kind) {
-  const bool has_cutter = kind.find_key("cutter.diameter_mm") != nullptr;
   for (const Quantity& quantity : kQuantities) {
-    if (quantity.name != name || (quantity.needs_cutter && !has_cutter)) continue;
+    if (quantity.name != name || (quantity.needs_cutter && !has_cutter(kind))) continue;
     const Unit& unit = unit_named(quantity.unit);
     return [native = quantity.native, &unit](const Case& point) -> std::optional<double> {
       return native(point) * unit.divisor / unit.factor;
@@ -41,11 +44,10 @@ std::function<std::optional<double>(const Case&)> quantity_named(std::string_vie
   return [key](const Case& point) { return read(*key, point); };
 }
 
-std::string quantity_names() {
-  std::string names;
+std::vector<std::string_view> quantity_names(const Kind& kind) {
+  std::vector<std::string_view> names;
   for (const Quantity& quantity : kQuantities) {
-    if (!names.empty()) names += ", ";
-    names += quantity.name;
+    if (!quantity.needs_cutter || has_cutter(kind)) names.push_back(quantity.name);
   }
   return names;
 }

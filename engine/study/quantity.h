@@ -3,8 +3,8 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include "study/kind.h"
 
@@ -16,7 +16,7 @@ namespace millstudy::study {
 std::function<std::optional<double>(const Case&)> quantity_named(std::string_view name,
                                                                  const Kind& kind);
 
-/// The derived quantities, as a list for messages.
-std::string quantity_names();
+/// The derived quantities that cases of the kind have.
+std::vector<std::string_view> quantity_names(const Kind& kind);
 
 }  // namespace millstudy::study

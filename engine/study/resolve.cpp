@@ -3,8 +3,10 @@
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 #include "study/curve_file.h"
+#include "study/quantity.h"
 #include "study/study.h"
 #include "study/suggest.h"
 #include "study/sweep_section.h"
@@ -43,11 +45,14 @@ class Resolver {
     };
     if (const core::Value* sweep = tree_.find("sweep")) {
       read_sweep(*sweep, read_file, study_, given_, faults_);
+      settle_file_axes();
     }
     find_missing();
     faults_.throw_if_any();
     make_base();
     study_.kind->check(given_, study_.base, faults_);
+    check_limits();
+    check_traces();
     check_name();
     faults_.throw_if_any();
     study_.canonical = canonical();
@@ -55,16 +60,23 @@ class Resolver {
   }
 
  private:
-  /// Without a kind no key can be judged: this fault is reported alone.
+  /// Without a version and a kind no key can be judged: these faults are reported alone.
   void find_kind() {
     if (!tree_.is_table()) throw core::InputError({{given_.file, "a study must be a table"}});
+    const core::Value* version = tree_.find("schema_version");
+    if (version && version->is_number() && version->number() != 1.0) {
+      throw core::InputError(
+          {{version->place, fmt::format("schema_version = {} is not known: this program reads 1",
+                                        version->number())}});
+    }
     const core::Value* section = tree_.find("study");
     const core::Value* kind = section ? section->find("kind") : nullptr;
     std::vector<std::string_view> names;
     for (const Kind* known : kinds()) names.push_back(known->name);
     if (!kind) {
       throw core::InputError(
-          {{given_.file, fmt::format("study.kind is missing: one of {}", fmt::join(names, ", "))}});
+          {{section ? section->place : given_.file,
+            fmt::format("study.kind is missing: one of {}", fmt::join(names, ", "))}});
     }
     if (!kind->is_string()) {
       throw core::InputError(
@@ -139,8 +151,11 @@ class Resolver {
     if (value.is_table()) {
       for (std::string_view& word : words) word = word.substr(0, word.rfind('.'));
     }
-    faults_.add(value.place, fmt::format("{} is not a key of kind {}{}", path, study_.kind->name,
+    faults_.add(value.place, fmt::format("{} is not a {} of kind {}{}", path,
+                                         value.is_table() ? "section" : "key", study_.kind->name,
                                          suggestion(path, words)));
+    const std::string_view meant = nearest(path, words);
+    if (!meant.empty()) misspelt_.push_back(meant);
   }
 
   void read_key(const Key& key, const core::Value& value) {
@@ -161,10 +176,7 @@ class Resolver {
   /// What a file says yields to what the study says itself.
   void keep(Assignment assignment, const core::Value& file) {
     const std::string_view path = assignment.key->path;
-    const core::Value* section = tree_.find(path.substr(0, path.find('.')));
-    const bool own =
-        assignment.key->type != KeyType::file && section && section->find(assignment.key->name());
-    if (own) return;
+    if (assignment.key->type != KeyType::file && is_own(*assignment.key)) return;
     given_.entries.try_emplace(path, Given::Entry{assignment.key, file.place, false});
     settings_.insert_or_assign(path, std::move(assignment.setting));
   }
@@ -192,16 +204,31 @@ class Resolver {
         faults.collect([&] { assignments.push_back({inner, checked_setting(*inner, member)}); });
       } else if (!is_file_text(name)) {
         faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
-                                             suggestion(section + '.' + name, known_)));
+                                             suggestion(name, names_in_file(section))));
       }
     }
     faults.throw_if_any();
     return assignments;
   }
 
+  /// What a file that stands for a section may give: the keys of the section, without the section.
+  std::vector<std::string_view> names_in_file(std::string_view section) const {
+    std::vector<std::string_view> names;
+    for (const std::string_view path : known_) {
+      const Key* key = study_.kind->find_key(path);
+      if (key->field && path.substr(0, path.find('.')) == section) names.push_back(key->name());
+    }
+    return names;
+  }
+
   core::Value load_named(const Key& key, const std::string& name, const core::Place& place) const {
     try {
-      return load_((folder_ / name).string());
+      core::Value content = load_((folder_ / name).string());
+      if (content.find("study")) {
+        throw core::InputError(
+            {{content.place, fmt::format("is a study, not what {} stands for", key.path)}});
+      }
+      return content;
     } catch (const core::InputError& error) {
       std::vector<core::Fault> faults = error.faults();
       for (core::Fault& fault : faults) {
@@ -215,9 +242,79 @@ class Resolver {
   void find_missing() {
     for (const std::span<const Key> section : study_.kind->sections) {
       for (const Key& key : section) {
-        if (key.required() && !given_.has(key.path)) faults_.add(given_.file, missing(key));
+        if (key.required() && !given_.has(key.path) && !is_misspelt(key.path)) {
+          faults_.add(given_.file, missing(key));
+        }
       }
     }
+  }
+
+  /// A key that stands there under a wrong name is reported once, not as missing too.
+  bool is_misspelt(std::string_view path) const {
+    return std::any_of(misspelt_.begin(), misspelt_.end(), [&](std::string_view meant) {
+      return path == meant || (path.starts_with(meant) && path[meant.size()] == '.');
+    });
+  }
+
+  /// True if the study gives the key in its own section: then no file decides it.
+  bool is_own(const Key& key) const {
+    const core::Value* section = tree_.find(key.path.substr(0, key.path.find('.')));
+    return section && section->find(key.name());
+  }
+
+  /// The files of an axis set the same keys, or what one of them sets would stay for the points of
+  /// the next; what the study gives itself, or sweeps, they do not set.
+  void settle_file_axes() {
+    for (Axis& axis : study_.axes) {
+      if (axis.key->type != KeyType::file || axis.key->field) continue;
+      std::set<const Key*> all;
+      for (std::vector<Assignment>& settings : axis.settings) {
+        std::erase_if(settings, [&](const Assignment& assignment) {
+          return is_own(*assignment.key) || has_axis(*assignment.key);
+        });
+        for (const Assignment& assignment : settings) all.insert(assignment.key);
+      }
+      const core::Place place = given_.entries.at(axis.key->path).place;
+      for (const Key* key : all) {
+        given_.entries[key->path] = {key, place, true};
+        for (std::size_t i = 0; i < axis.settings.size(); ++i) {
+          const std::vector<Assignment>& settings = axis.settings[i];
+          const bool sets = std::any_of(settings.begin(), settings.end(),
+                                        [&](const Assignment& a) { return a.key == key; });
+          if (!sets) {
+            faults_.add(place, fmt::format("sweep.axes: {} = \"{}\" does not give {}, as others do",
+                                           axis.key->path, axis.labels[i], key->path));
+          }
+        }
+      }
+    }
+  }
+
+  bool has_axis(const Key& key) const {
+    return std::any_of(study_.axes.begin(), study_.axes.end(),
+                       [&](const Axis& axis) { return axis.key == &key; });
+  }
+
+  /// A limit on a key that no point has would skip them all.
+  void check_limits() {
+    for (const Limit& limit : study_.limits) {
+      const Key* key = study_.kind->find_key(limit.quantity);
+      if (!key || given_.has(key->path) || !std::holds_alternative<Optional>(key->fallback))
+        continue;
+      const std::vector<std::string_view> derived = quantity_names(*study_.kind);
+      const bool computed = std::find(derived.begin(), derived.end(), key->name()) != derived.end();
+      faults_.add(
+          limit.place,
+          fmt::format("sweep.where: quantity = \"{}\" is not given in this study{}", key->path,
+                      computed ? fmt::format("; {} is computed", key->name()) : ""));
+    }
+  }
+
+  void check_traces() {
+    if (!study_.traces || study_.kind->has_traces) return;
+    faults_.add(
+        given_.place({"output.traces"}),
+        fmt::format("output.traces = true: kind {} has no time histories", study_.kind->name));
   }
 
   void make_base() {
@@ -294,6 +391,7 @@ class Resolver {
   Given given_;
   Study study_;
   std::vector<std::string_view> known_;
+  std::vector<std::string_view> misspelt_;  // keys and sections that stand there under wrong names
   std::map<std::string_view, Setting> settings_;
 };
 

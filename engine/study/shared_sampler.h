@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/error.h"
 #include "core/shared_cache.h"
 #include "force/sampler.h"
 #include "study/rows.h"
@@ -15,6 +16,9 @@ class SharedSamplers {
  public:
   std::shared_ptr<const force::ForceSampler> get(const Case& point,
                                                  const force::Engagement& engaged) const {
+    if (disc_samples(point) > kMostDiscSamples) {
+      throw core::CaseError("numerics.discs x numerics.angular_steps must be <= 1e+09");
+    }
     const std::string key = share_key(
         point.cutter.shape, point.cutter.diameter, point.cutter.flutes, point.cutter.helix_angle,
         engaged.entry_angle, engaged.exit_angle, engaged.axial_depth, point.edge_rule.rule,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ struct Limit {
   std::function<std::optional<double>(const Case&)> value;
   std::optional<double> min;
   std::optional<double> max;
+  core::Place place;
 };
 
 /// A study that has been read, checked and found without fault.
@@ -71,7 +73,9 @@ Case case_at(const Study& study, std::int64_t point);
 
 /// The evaluator of the study's blocks: skips what is outside the limits, turns what a point
 /// throws into its failure, and shares work between points.
-sweep::EvaluateBlock block_evaluator(const Study& study);
+///
+/// @param stop  once it is set, the points of a block that have not begun stay not_run
+sweep::EvaluateBlock block_evaluator(const Study& study, const std::atomic<bool>* stop = nullptr);
 
 /// The reference of every key of a kind, as text or as a Markdown table.
 std::string key_reference(const Kind& kind, bool markdown);

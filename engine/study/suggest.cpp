@@ -25,7 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongestWord = 200;  // nobody misspells more than that
   if (word.size() > kLongestWord) return "";
   std::string_view best;
@@ -37,6 +37,11 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
       best = candidate;
     }
   }
+  return best;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+  const std::string_view best = nearest(word, known);
   return best.empty() ? "" : "; did you mean " + std::string(best) + "?";
 }
 

@@ -108,7 +108,6 @@ class SweepReader {
   }
 
   static void check_length(const Key& key, const core::Value& value, double count) {
-    if (count < 1.0) fail(value, fmt::format("sweep.axes: {} has no values", key.path));
     if (count > kLongestAxis) {
       fail(value, fmt::format("sweep.axes: {} has {:.4g} values, more than {:.0f}", key.path, count,
                               kLongestAxis));
@@ -116,6 +115,7 @@ class SweepReader {
   }
 
   void read_list(const Key& key, const core::Value& list, Axis& axis) {
+    if (list.array().empty()) fail(list, fmt::format("sweep.axes: {} has no values", key.path));
     check_length(key, list, static_cast<double>(list.array().size()));
     Faults faults;
     for (const core::Value& item : list.array()) {
@@ -136,11 +136,17 @@ class SweepReader {
                                 : std::vector<Assignment>{{&key, std::move(setting)}});
   }
 
+  /// A whole number that spacing has moved by rounding is that number; anything else stays.
+  static double without_rounding(double number) {
+    const double whole = std::nearbyint(number);
+    return std::abs(number - whole) <= 1e-12 * std::abs(whole) ? whole : number;
+  }
+
   static double range_member(const Key& key, const core::Value& range, std::string_view name) {
     const core::Value* value = range.find(name);
     if (!value || !value->is_number() || !std::isfinite(value->number())) {
-      fail(value ? *value : range,
-           fmt::format("sweep.axes: {} needs {} as a number", key.path, name));
+      fail(value ? *value : range, fmt::format("sweep.axes: {}: {} {}", key.path, name,
+                                               value ? "must be a finite number" : "is missing"));
     }
     return value->number();
   }
@@ -168,19 +174,31 @@ class SweepReader {
     const double to = range_member(key, range, "to");
     const double count = range_member(key, range, "count");
     const bool log = logarithmic(key, range);
-    if (count != std::nearbyint(count)) {
+    if (count != std::nearbyint(count) || count < 1.0) {
       fail(*range.find("count"),
-           fmt::format("sweep.axes: {}: count must be a whole number", key.path));
+           fmt::format("sweep.axes: {}: count = {} must be a whole number >= 1", key.path, count));
     }
     check_length(key, *range.find("count"), count);
+    if (count == 1.0 && from != to) {
+      fail(*range.find("count"),
+           fmt::format("sweep.axes: {}: count = 1 leaves out to = {}: give 2 or more", key.path,
+                       to));
+    }
     if (log && (from <= 0.0 || to <= 0.0)) {
       fail(range, fmt::format("sweep.axes: {}: log spacing needs from and to > 0", key.path));
     }
-    const auto last = static_cast<std::int64_t>(count) - 1;
-    for (std::int64_t i = 0; i <= last; ++i) {
-      const double t = last == 0 ? 0.0 : static_cast<double>(i) / static_cast<double>(last);
-      double number = log ? from * std::pow(to / from, t) : from + (to - from) * t;
-      if (i == last && last > 0) number = to;
+    Faults ends;
+    ends.collect([&] { checked_setting(key, *range.find("from")); });
+    ends.collect([&] { checked_setting(key, *range.find("to")); });
+    ends.throw_if_any();
+    const double last = count - 1.0;
+    for (double i = 0.0; i <= last; ++i) {
+      // Multiplied before it is divided: 600 to 3000 in 25 steps gives 700, not 699.9999999999999.
+      double number = i == 0.0    ? from
+                      : i == last ? to
+                      : log       ? from * std::pow(to / from, i / last)
+                                  : from + (to - from) * i / last;
+      if (key.type == KeyType::integer) number = without_rounding(number);
       add_value(key, {number, range.place}, axis);
     }
   }
@@ -197,15 +215,14 @@ class SweepReader {
   Limit read_limit(const core::Value& table) const {
     if (!table.is_table()) fail(table, "sweep.where must be a list of tables: [[sweep.where]]");
     Limit limit;
+    limit.place = table.place;
     for (const auto& [name, value] : table.table()) {
       if (name == "quantity") {
         if (!value.is_string()) fail(value, "sweep.where: quantity must be a string");
         limit.quantity = value.string();
         limit.value = quantity_named(limit.quantity, *study_.kind);
         if (!limit.value) {
-          fail(value, fmt::format("sweep.where: quantity = \"{}\" is neither a numeric key of kind "
-                                  "{} nor one of {}",
-                                  limit.quantity, study_.kind->name, quantity_names()));
+          fail(value, unknown_quantity(limit.quantity));
         }
       } else if (name == "min" || name == "max") {
         if (!value.is_number() || std::isnan(value.number())) {
@@ -213,12 +230,27 @@ class SweepReader {
         }
         (name == "min" ? limit.min : limit.max) = value.number();
       } else {
-        fail(value, fmt::format("sweep.where: {} is not one of quantity, min, max", name));
+        constexpr std::array<std::string_view, 3> kKnown = {"quantity", "min", "max"};
+        fail(value, fmt::format("sweep.where: {} is not one of quantity, min, max{}", name,
+                                suggestion(name, kKnown)));
       }
     }
     if (!limit.value) fail(table, "sweep.where has no quantity");
     if (!limit.min && !limit.max) fail(table, "sweep.where has neither min nor max");
+    if (limit.min && limit.max && *limit.min > *limit.max) {
+      fail(table, fmt::format("sweep.where: {}: min = {} must be <= max = {}", limit.quantity,
+                              *limit.min, *limit.max));
+    }
     return limit;
+  }
+
+  std::string unknown_quantity(std::string_view name) const {
+    const std::vector<std::string_view> derived = quantity_names(*study_.kind);
+    std::vector<std::string_view> known = derived;
+    known.insert(known.end(), sweepable_.begin(), sweepable_.end());
+    return fmt::format(
+        "sweep.where: quantity = \"{}\" is neither a numeric key of kind {} nor one of {}{}", name,
+        study_.kind->name, fmt::join(derived, ", "), suggestion(name, known));
   }
 
   void make_space(sweep::Design design, const core::Place& place) {

@@ -24,8 +24,8 @@ struct Progress {
 struct RunOptions {
   int threads = 0;              ///< 0: all
   std::int64_t block_size = 0;  ///< points per block; 0: chosen from the number of points
-  const std::atomic<bool>* stop = nullptr;        ///< set from outside to end early
-  std::function<void(const Progress&)> progress;  ///< called after every block, on one thread
+  const std::atomic<bool>* stop = nullptr;             ///< set from outside to end early
+  std::function<void(const Progress&)> progress = {};  ///< called after every block, on one thread
 };
 
 /// Fills one block: every point gets a status, and its values or its failure. Called concurrently.

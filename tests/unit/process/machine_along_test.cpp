@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "process/machine_along.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace millstudy::process {
+namespace {
+
+const cutter::Cutter kCutter{cutter::Shape::flat, 12.0, 2, core::rad_from_deg(30.0)};
+const force::Coefficients kGgg70{2172.0, 850.0, 726.0, 17.3, 7.8, 6.7};
+
+struct Bench {
+  force::Engagement engagement = force::slot(0.5);
+  Machining machining{kCutter, engagement, kGgg70, 14500.0 / 60.0, 360};
+  force::ForceSampler sampler{kCutter, engagement, {}, 360};
+};
+
+/// Equal chords of the given length, turned by theta; period 2 ms.
+path::Interpolation straight(int periods, double chord, double theta) {
+  path::Interpolation path;
+  path.period = 0.002;
+  for (int i = 0; i <= periods; ++i) {
+    path.points.push_back({i * chord * std::cos(theta), i * chord * std::sin(theta), 0.0});
+  }
+  return path;
+}
+
+TEST(MachineAlong, OnAStraightPathIsThePlainForce) {
+  const Bench bench;
+  // 174 samples a period: 360 periods are 174 whole revolutions. 29 mm/s is 0.06 mm per tooth.
+  const PathForces along = machine_along(straight(360, 0.058, 0.0), bench.sampler, bench.machining);
+  force::ForceSamples samples;
+  bench.sampler.sample(kGgg70, 0.06, 0.0, 0, 360, samples);
+  force::StatisticsAccumulator revolution;
+  revolution.add(samples, 360);
+  const force::ForceStatistics plain = revolution.result();
+  EXPECT_EQ(along.samples, 360 * 174);
+  EXPECT_NEAR(along.force.x.mean, plain.x.mean, 1e-11);
+  EXPECT_NEAR(along.force.resultant.mean, plain.resultant.mean, 1e-11);
+  EXPECT_NEAR(along.force.resultant.max, plain.resultant.max, 1e-11);
+  EXPECT_NEAR(along.force.z.rms, plain.z.rms, 1e-11);
+  EXPECT_NEAR(along.force.torque_mean, plain.torque_mean, 1e-10);
+  EXPECT_NEAR(along.chip_thickness_max, 0.06, 1e-14);
+}
+
+TEST(MachineAlong, TurnsWithThePath) {
+  const Bench bench;
+  const PathForces plain = machine_along(straight(360, 0.058, 0.0), bench.sampler, bench.machining);
+  // A quarter turn is 90 of the 360 angular steps: the same samples in another order.
+  const PathForces turned =
+      machine_along(straight(360, 0.058, core::kPi / 2), bench.sampler, bench.machining);
+  EXPECT_NEAR(turned.force.y.mean, plain.force.x.mean, 1e-10);
+  EXPECT_NEAR(turned.force.x.mean, -plain.force.y.mean, 1e-10);
+  EXPECT_NEAR(turned.force.x.min, -plain.force.y.max, 1e-10);
+  EXPECT_NEAR(turned.force.resultant.rms, plain.force.resultant.rms, 1e-10);
+  EXPECT_NEAR(turned.force.torque_max, plain.force.torque_max, 1e-10);
+}
+
+TEST(MachineAlong, TakesEverySampleOnce) {
+  Bench bench;
+  for (const double rpm : {14500.0, 17500.0, 9999.0, 137.0}) {
+    bench.machining.spindle_speed = rpm / 60.0;
+    std::int64_t next = 0;
+    const PathForces along =
+        machine_along(straight(500, 0.058, 0.3), bench.sampler, bench.machining,
+                      [&](std::int64_t first, std::int64_t count, const force::ForceSamples&) {
+                        EXPECT_EQ(first, next);
+                        next += count;
+                      });
+    EXPECT_EQ(along.samples, next);
+    EXPECT_NEAR(static_cast<double>(next), 500 * 0.002 * rpm / 60.0 * 360.0, 1.0);
+  }
+}
+
+TEST(MachineAlong, PutsASampleOnTheBoundaryIntoTheLaterPeriod) {
+  const double samples_per_period = 0.002 * (14500.0 / 60.0) * 360.0;  // 174 to rounding
+  for (std::int64_t i = 0; i < 100'000; ++i) {
+    ASSERT_EQ(first_sample_of_period(i, samples_per_period), 174 * i);
+  }
+}
+
+TEST(MachineAlong, ShowsTheFluctuationOfTheInterpolator) {
+  const Bench bench;
+  path::Interpolation uneven = straight(360, 0.058, 0.0);
+  for (std::size_t i = 1; i < uneven.points.size(); i += 2) uneven.points[i].x += 0.0058;
+  const PathForces plain = machine_along(straight(360, 0.058, 0.0), bench.sampler, bench.machining);
+  const PathForces shaken = machine_along(uneven, bench.sampler, bench.machining);
+  EXPECT_NEAR(shaken.chip_thickness_max, 1.1 * plain.chip_thickness_max, 1e-12);
+  EXPECT_GT(shaken.force.resultant.max, 1.05 * plain.force.resultant.max);
+}
+
+TEST(MachineAlong, RefusesAPathThatClimbs) {
+  const Bench bench;
+  path::Interpolation climbing = straight(3, 0.058, 0.0);
+  climbing.points.back().z = 1e-3;
+  EXPECT_THROW(machine_along(climbing, bench.sampler, bench.machining), core::CaseError);
+}
+
+TEST(MachineAlong, RefusesMoreSamplesThanAnybodyCanWaitFor) {
+  Bench bench;
+  bench.machining.angular_steps = 1'000'000;
+  EXPECT_THROW(machine_along(straight(50'000, 0.058, 0.0), bench.sampler, bench.machining),
+               core::CaseError);
+}
+
+}  // namespace
+}  // namespace millstudy::process
