@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: MIT
+"""Runs a ready-made study and compares its result with published or independent numbers.
+
+Usage: studies.py MILLSTUDY STUDY, where STUDY names one of the functions below.
+Every comparison prints the source, the number expected, ours, and the distance; a number that is
+off by more than half a unit of its last printed digit (or the tolerance given) fails.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+
+class Checker:
+    def __init__(self):
+        self.failures = 0
+
+    def number(self, what, source, printed, ours, tolerance=None):
+        """printed is text, so that its last digit says how exact it is."""
+        expected = float(printed)
+        if tolerance is None:
+            mantissa, _, exponent = printed.lower().partition("e")
+            decimals = len(mantissa.partition(".")[2])
+            tolerance = 0.5000001 * 10.0 ** (int(exponent or 0) - decimals)
+        fine = abs(ours - expected) <= tolerance
+        self.failures += not fine
+        print(f"{'ok  ' if fine else 'FAIL'} {what:<46} {source:<22} expected {printed:>15}  "
+              f"ours {ours:.12g}  distance {ours - expected:+.2e}")
+
+    def holds(self, what, fine, figure):
+        self.failures += not fine
+        print(f"{'ok  ' if fine else 'FAIL'} {what}: {figure}")
+
+
+def run(program, study, folder, *overrides):
+    result = pathlib.Path(folder) / "result.h5"
+    result.unlink(missing_ok=True)
+    command = [program, "run", str(ROOT / "studies" / f"{study}.toml"), "-o", str(result), "--quiet"]
+    for override in overrides:
+        command += ["--set", override]
+    subprocess.run(command, check=True, stdout=subprocess.PIPE)
+    with h5py.File(result) as file:
+        return {name: data.asstr()[()] if h5py.check_string_dtype(data.dtype) else data[()]
+                for name, data in file.items() if data.shape is not None}
+
+
+def at(result, axes, **where):
+    """The index of one point of a grid, by coordinate values."""
+    index = []
+    for axis in axes:
+        wanted = where[axis]
+        values = result[axis]
+        index.append(list(values).index(wanted) if isinstance(wanted, str)
+                     else int(np.argmin(np.abs(values - wanted))))
+    return tuple(index)
+
+
+def sun2008_interpolators(program, folder, check):
+    axes = ["method", "max_iterations", "interpolation_period_s", "feed_rate_mm_per_min"]
+    result = run(program, "sun2008_interpolators", folder)
+    source = "sun2008 Table 1, own run"
+
+    def figures(method, n):
+        index = at(result, axes, method=method, max_iterations=n, interpolation_period_s=0.002,
+                   feed_rate_mm_per_min=3600.0)
+        steps = result["steps"][index]
+        return {"max": result["feed_fluctuation_max"][index],
+                "rms": result["feed_fluctuation_rms"][index], "steps": steps,
+                "evaluations": result["curve_evaluations"][index] / steps,
+                "time": result["path_time"][index], "length": result["path_length"][index],
+                "chord": result["chord_error_max"][index]}
+
+    expected = [  # method, N, max %, rms %, evaluations per step
+        ("taylor1", 1, "6.6316", "2.20", 1), ("taylor2", 1, "1.5246", "0.248", 1),
+        ("newton", 1, "2.556e-2", "5.3e-3", 2), ("newton", 2, "3.7942e-7", "5.5e-8", 3)]
+    for method, n, largest, rms, evaluations in expected:
+        ours = figures(method, n)
+        check.number(f"{method} N={n} max fluctuation [%]", source, largest, ours["max"])
+        check.number(f"{method} N={n} rms fluctuation [%]", source, rms, ours["rms"])
+        check.number(f"{method} N={n} evaluations per step", source, str(evaluations),
+                     ours["evaluations"], 0.02)
+        check.number(f"{method} N={n} full steps", source, "344", ours["steps"], 0.0)
+    floor = figures("newton", 3)
+    check.holds("newton N=3 max fluctuation at the rounding floor, 4.3e-12 % within 3x",
+                floor["max"] < 3 * 4.3e-12, f"{floor['max']:.2e} %")
+    check.holds("newton N=3 rms at the rounding floor, 1.2e-12 % within 3x",
+                floor["rms"] < 3 * 1.2e-12, f"{floor['rms']:.2e} %")
+    check.number("newton N=3 evaluations per step", source, "4", floor["evaluations"], 0.02)
+    two = figures("newton", 2)
+    check.number("arc length [mm]", source, "41.36045561601", two["length"])
+    check.number("path time [s]", source, "0.690", two["time"], 1e-12)
+    check.number("chord error [um]", source, "4.86", 1e3 * two["chord"])
+    table = figures("arc_length_table", 1)
+    check.holds("an arc-length method ends near its floor kappa^2 (V T)^2 / 24 = 0.44 %",
+                0.40 < table["max"] < 0.4415, f"{table['max']:.4f} %")
+    print("the paper prints 6.63, about 1.5, about 100 times lower, 3.79e-7 %")
+
+
+def haber2004_slot(program, folder, check):
+    result = run(program, "haber2004_slot", folder)
+    mean, largest = result["force_resultant_mean"], result["force_resultant_max"]
+    source = "REFERENCE, own run"
+    check.number("14 500 rpm mean resultant, exact [N]", source, "56.632", mean[0])
+    check.number("17 500 rpm mean resultant, exact [N]", source, "69.9585", mean[1])
+    check.number("14 500 rpm max resultant [N]", source, "83.315", largest[0])
+    check.number("17 500 rpm max resultant [N]", source, "104.249", largest[1])
+    for speed, printed, ours in (("14 500", "56.7", mean[0]), ("17 500", "70.6", mean[1])):
+        check.number(f"{speed} rpm mean resultant [N]", "haber2004 Table II", printed, ours,
+                     0.011 * float(printed))
+    for speed, measured, ours in (("14 500", 55.6, mean[0]), ("17 500", 71.7, mean[1])):
+        print(f"     {speed} rpm: the article measured {measured} N with a new tool; "
+              f"({measured} - ours) / {measured} = {100 * (measured - ours) / measured:+.1f} %")
+    for steps, printed in ((360, "56.6350"), (720, "56.6322"), (3600, "56.6318")):
+        ours = run(program, "haber2004_slot", folder, f"numerics.angular_steps={steps}")
+        check.number(f"mean resultant at {steps} steps [N]", source, printed,
+                     ours["force_resultant_mean"][0])
+    discs = run(program, "haber2004_slot", folder, "numerics.rule=discs", "numerics.discs=20000")
+    check.number("with 20 000 discs [N]", source, "56.632", discs["force_resultant_mean"][0])
+    check.number("with 20 000 discs [N]", source, "69.9585", discs["force_resultant_mean"][1])
+    for depth, printed in ((0.5, "95.80"), (3.0, "396.616"), (6.0, "712.611")):
+        ball = run(program, "haber2004_slot", folder, "cutter.shape=ball",
+                   f"cut.axial_depth_mm={depth}")
+        check.number(f"ball, {depth} mm deep, mean resultant [N]", source, printed,
+                     ball["force_resultant_mean"][0], 0.01)
+
+
+def ball_edge_convergence(program, folder, check):
+    result = run(program, "ball_edge_convergence", folder, "numerics.angular_steps=3600")
+    mean = result["force_resultant_mean"]
+    exact = mean[list(result["rule"]).index("exact")]
+    discs = mean[list(result["rule"]).index("discs")]
+    check.holds("the exact rule does not depend on discs", np.ptp(exact) == 0.0, f"{exact[0]:.6f} N")
+    low = {int(n): 100 * (exact[0] - force) / exact[0] for n, force in zip(result["discs"], discs)}
+    for n, printed in ((50, "2.2"), (400, "0.77"), (20000, "0.1")):
+        check.number(f"{n} discs are low by [%]", "DESIGN 3", printed, low[n],
+                     0.05 if n != 400 else 0.005)
+    order = np.polyfit(np.log(result["discs"]), np.log(list(low.values())), 1)[0]
+    check.number("order of convergence in the number of discs", "1/sqrt(z) at the tip", "-0.5", order,
+                 0.02)
+
+
+def ggg70_slot(program, folder, check):
+    axes = ["feed_rate_mm_per_min", "spindle_speed_rpm", "helix_deg", "max_iterations"]
+    result = run(program, "ggg70_slot", folder)
+    status, mean = result["status"], result["force_resultant_mean"]
+    check.holds("at least 100 000 points", status.size >= 100_000, status.size)
+    check.holds("every point is ok or skipped", not np.isin(status, (1, 3)).any(),
+                f"{(status == 0).sum()} ok, {(status == 2).sum()} skipped")
+    feed = result["feed_rate_mm_per_min"][:, None] / (2 * result["spindle_speed_rpm"][None, :])
+    check.holds("skipped is exactly what is beyond 0.15 mm per tooth",
+                np.array_equal(status[:, :, 0, 0] == 2, feed > 0.15 * (1 + 1e-12)),
+                f"{(feed > 0.15 * (1 + 1e-12)).sum()} of {feed.size} feeds and speeds")
+    iterations = np.nanmax(np.abs(mean[..., 0] / mean[..., 1] - 1))
+    check.holds("one Newton update instead of two moves the force by less than 0.03 %",
+                iterations < 3e-4, f"{100 * iterations:.2e} %")
+    index = at(result, axes, feed_rate_mm_per_min=1740.0, spindle_speed_rpm=14500.0, helix_deg=30.0,
+               max_iterations=2)
+    straight = run(program, "haber2004_slot", folder, "numerics.angular_steps=360")
+    check.holds("along the curve as on the straight line, 14 500 rpm and 1740 mm/min, within 0.5 %",
+                abs(mean[index] / straight["force_resultant_mean"][0] - 1) < 5e-3,
+                f"{mean[index]:.4f} N against {straight['force_resultant_mean'][0]:.4f} N")
+
+
+def main():
+    program, study = sys.argv[1:]
+    check = Checker()
+    with tempfile.TemporaryDirectory() as folder:
+        globals()[study](program, folder, check)
+    print(f"{study}: {check.failures} numbers off")
+    return 1 if check.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
