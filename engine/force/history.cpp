@@ -3,74 +3,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/units.h"
 #include "cutter/envelope.h"
+#include "force/lanes.h"
 
 namespace millstudy::force {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The first `count` lanes of memory, the others zero.
-Lanes load_part(const double* from, int count) {
-  Lanes lanes{};
-  for (int i = 0; i < count; ++i) lanes[i] = from[i];
-  return lanes;
-}
-
-double total(const Lanes& lanes) {
+double total(const std::array<double, kLanes>& parts) {
   double sum = 0.0;
-  for (int i = 0; i < kLanes; ++i) sum += lanes[i];
+  for (const double part : parts) sum += part;
   return sum;
 }
 
 }  // namespace
 
+/// Sums of one quantity in registers, while a piece is taken in.
+class StatisticsAccumulator::Taker {
+ public:
+  explicit Taker(Sums& sums)
+      : sums_(sums),
+        sum_(load(sums.sum.data())),
+        squares_(load(sums.squares.data())),
+        min_(load(sums.min.data())),
+        max_(load(sums.max.data())) {}
+
+  ~Taker() {
+    std::memcpy(sums_.sum.data(), &sum_, sizeof sum_);
+    std::memcpy(sums_.squares.data(), &squares_, sizeof squares_);
+    std::memcpy(sums_.min.data(), &min_, sizeof min_);
+    std::memcpy(sums_.max.data(), &max_, sizeof max_);
+  }
+
+  void take(const Lanes& values) {
+    sum_ += values;
+    squares_ += values * values;
+    min_ = values < min_ ? values : min_;
+    max_ = values > max_ ? values : max_;
+  }
+
+  /// The lanes from `count` on are zero and do not count.
+  void take(const Lanes& values, int count) {
+    sum_ += values;
+    squares_ += values * values;
+    for (int i = 0; i < count; ++i) {
+      min_[i] = std::min(min_[i], values[i]);
+      max_[i] = std::max(max_[i], values[i]);
+    }
+  }
+
+ private:
+  Sums& sums_;
+  Lanes sum_;
+  Lanes squares_;
+  Lanes min_;
+  Lanes max_;
+};
+
 StatisticsAccumulator::StatisticsAccumulator() {
-  const Lanes zero{};
-  x_ = y_ = z_ = resultant_ = torque_ = {zero, zero, zero + kInfinity, zero - kInfinity};
-}
-
-inline void StatisticsAccumulator::take(Sums& sums, const Lanes& values) {
-  sums.sum += values;
-  sums.squares += values * values;
-  sums.min = values < sums.min ? values : sums.min;
-  sums.max = values > sums.max ? values : sums.max;
-}
-
-/// The lanes from `count` on are zero and do not count.
-inline void StatisticsAccumulator::take(Sums& sums, const Lanes& values, int count) {
-  sums.sum += values;
-  sums.squares += values * values;
-  for (int i = 0; i < count; ++i) {
-    sums.min[i] = std::min(sums.min[i], values[i]);
-    sums.max[i] = std::max(sums.max[i], values[i]);
+  for (Sums& sums : sums_) {
+    sums.sum.fill(0.0);
+    sums.squares.fill(0.0);
+    sums.min.fill(kInfinity);
+    sums.max.fill(-kInfinity);
   }
 }
 
 void StatisticsAccumulator::add(const ForceSamples& samples, std::int64_t count) {
+  Taker x_taker(sums_[0]), y_taker(sums_[1]), z_taker(sums_[2]);
+  Taker resultant_taker(sums_[3]), torque_taker(sums_[4]);
   std::int64_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     const Lanes x = load(&samples.x[i]);
     const Lanes y = load(&samples.y[i]);
     const Lanes z = load(&samples.z[i]);
-    take(x_, x);
-    take(y_, y);
-    take(z_, z);
-    take(resultant_, square_root(x * x + y * y + z * z));
-    take(torque_, load(&samples.torque[i]));
+    x_taker.take(x);
+    y_taker.take(y);
+    z_taker.take(z);
+    resultant_taker.take(square_root(x * x + y * y + z * z));
+    torque_taker.take(load(&samples.torque[i]));
   }
   if (const int rest = static_cast<int>(count - i); rest > 0) {
     const Lanes x = load_part(&samples.x[i], rest);
     const Lanes y = load_part(&samples.y[i], rest);
     const Lanes z = load_part(&samples.z[i], rest);
-    take(x_, x, rest);
-    take(y_, y, rest);
-    take(z_, z, rest);
-    take(resultant_, square_root(x * x + y * y + z * z), rest);
-    take(torque_, load_part(&samples.torque[i], rest), rest);
+    x_taker.take(x, rest);
+    y_taker.take(y, rest);
+    z_taker.take(z, rest);
+    resultant_taker.take(square_root(x * x + y * y + z * z), rest);
+    torque_taker.take(load_part(&samples.torque[i], rest), rest);
   }
   count_ += count;
 }
@@ -91,9 +117,9 @@ Statistics StatisticsAccumulator::statistics(const Sums& sums) const {
 }
 
 ForceStatistics StatisticsAccumulator::result() const {
-  const Statistics torque = statistics(torque_);
-  return {statistics(x_),         statistics(y_), statistics(z_),
-          statistics(resultant_), torque.mean,    torque.max};
+  const Statistics torque = statistics(sums_[4]);
+  return {statistics(sums_[0]), statistics(sums_[1]), statistics(sums_[2]),
+          statistics(sums_[3]), torque.mean,          torque.max};
 }
 
 double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "cutter/cutter.h"
 #include "force/engagement.h"
-#include "force/lanes.h"
 #include "force/sampler.h"
 
 namespace millstudy::force {
@@ -38,18 +38,18 @@ class StatisticsAccumulator {
   ForceStatistics result() const;
 
  private:
+  /// Running sums in eight interleaved parts, as vectors take them.
   struct Sums {
-    Lanes sum;
-    Lanes squares;
-    Lanes min;
-    Lanes max;
+    std::array<double, 8> sum;
+    std::array<double, 8> squares;
+    std::array<double, 8> min;
+    std::array<double, 8> max;
   };
-  static void take(Sums& sums, const Lanes& values);
-  static void take(Sums& sums, const Lanes& values, int count);
+  class Taker;
   Statistics statistics(const Sums& sums) const;
 
   std::int64_t count_ = 0;
-  Sums x_, y_, z_, resultant_, torque_;
+  std::array<Sums, 5> sums_;  // x, y, z, resultant, torque
 };
 
 /// (F16): the thickest chip that the cut makes [mm].

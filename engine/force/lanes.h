@@ -8,11 +8,12 @@ namespace millstudy::force {
 
 /// Eight doubles at once; the compiler splits them where the machine has shorter vectors.
 ///
-/// Plain `omp simd` loops were tried first: they leave up to seven angles of every range to a
-/// scalar remainder, which costs more than the range itself where a ramp is six angles long, and
-/// whose bits are the vector loop's only by luck of how products and sums are contracted. Here
-/// every angle goes through the same instructions wherever its range is cut.
+/// And not `omp simd` loops: those leave up to seven angles of every range to a scalar remainder,
+/// which is all of it where a ramp is six angles long, and whose bits are those of the vector loop
+/// only by luck of how the compiler contracts products and sums. Here every angle goes through the
+/// same instructions wherever its range is cut.
 inline constexpr int kLanes = 8;
+
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
 inline constexpr Lanes kLaneIndex = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
@@ -21,6 +22,13 @@ inline constexpr Lanes kLaneIndex = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
 [[gnu::always_inline]] inline Lanes load(const double* from) {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+/// The first `count` lanes of memory, the others zero.
+[[gnu::always_inline]] inline Lanes load_part(const double* from, int count) {
+  Lanes lanes{};
+  for (int i = 0; i < count; ++i) lanes[i] = from[i];
   return lanes;
 }
 

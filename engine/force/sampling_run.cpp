@@ -16,12 +16,15 @@ AngleTables::AngleTables(int angular_steps, int flute_count)
       step(2.0 * core::kPi / angular_steps),
       steps_per_rad(angular_steps / (2.0 * core::kPi)) {
   const int padded = period + kLanes;
+  for (std::vector<double>* table : {&cos1, &sin1, &cos2, &sin2}) table->reserve(padded);
   for (int n = 0; n < padded; ++n) {
     const double angle = 2.0 * core::kPi * n / angular_steps;
-    cos1.push_back(std::cos(angle));
-    sin1.push_back(std::sin(angle));
-    cos2.push_back(std::cos(2.0 * angle));
-    sin2.push_back(std::sin(2.0 * angle));
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    cos1.push_back(c);
+    sin1.push_back(s);
+    cos2.push_back((c - s) * (c + s));
+    sin2.push_back(2.0 * s * c);
   }
   for (int q = 0; q < flutes; ++q) {
     cos_pitch.push_back(std::cos(2.0 * core::kPi * q / flutes));
