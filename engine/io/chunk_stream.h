@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -11,6 +14,8 @@
 #include "io/row_major.h"
 
 namespace millstudy::io {
+
+static_assert(std::endian::native == std::endian::little, "chunks are stored as they are");
 
 /// The library's name of a C++ type in memory.
 template <class T>
@@ -22,9 +27,29 @@ hid_t memory_type() {
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
 }
 
+/// True if at most half of the first values are different ones: then gzip pays.
+///
+/// Measured on 22 columns of float64 that are all different: gzip 1 writes 35 MB/s and saves 29 %,
+/// storing them as they are 270 MB/s. Columns that do not depend on the inner axes (feed per tooth,
+/// steps, status) shrink to a few percent.
+template <class T>
+bool is_repetitive(std::span<const T> values) {
+  std::vector<T> seen(values.begin(), values.begin() + std::min<std::size_t>(values.size(), 4096));
+  const auto bits = [](T value) {
+    if constexpr (std::is_same_v<T, double>) return std::bit_cast<std::uint64_t>(value);
+    if constexpr (std::is_same_v<T, float>) return std::bit_cast<std::uint32_t>(value);
+    if constexpr (std::is_integral_v<T>) return value;
+  };
+  std::sort(seen.begin(), seen.end(), [&](T a, T b) { return bits(a) < bits(b); });
+  const auto end =
+      std::unique(seen.begin(), seen.end(), [&](T a, T b) { return bits(a) == bits(b); });
+  return 2 * (end - seen.begin()) <= static_cast<std::ptrdiff_t>(seen.size());
+}
+
 /// Fills a variable from its first element to its last in row-major order, in pieces of any size.
 ///
-/// Holds back at most one chunk, so that every chunk is compressed once and written whole.
+/// Holds back at most one chunk, so that every chunk is compressed once and written whole; chunks
+/// that gzip would hardly shrink are stored as they are. Stored and memory types are the same.
 template <class T>
 class ChunkStream {
  public:
@@ -54,7 +79,14 @@ class ChunkStream {
       shape_[0] = next_ + count;
       hdf5::extend(dataset_.get(), shape_[0]);
     }
-    hdf5::write_range(dataset_.get(), memory_type<T>(), shape_, next_, count, held_.data());
+    if (shape_.empty() || is_repetitive(std::span<const T>(held_))) {
+      hdf5::write_range(dataset_.get(), memory_type<T>(), shape_, next_, count, held_.data());
+    } else {
+      // A chunk is short only at its end: all dimensions after the split one are whole in it.
+      held_.resize(static_cast<std::size_t>(element_count(chunk_)));
+      hdf5::write_chunk_unfiltered(dataset_.get(), row_major_boxes(shape_, next_, next_ + 1)[0],
+                                   std::as_bytes(std::span<const T>(held_)));
+    }
     next_ += count;
     held_.clear();
   }

@@ -145,6 +145,13 @@ void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int6
   });
 }
 
+void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std::byte> bytes) {
+  constexpr std::uint32_t kAllFilters = ~std::uint32_t{0};
+  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, kAllFilters, sizes(start.start).data(), bytes.size(),
+                       bytes.data()),
+        "write a variable");
+}
+
 void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                 std::int64_t count, void* data) {
   const std::size_t size = H5Tget_size(memory_type);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <hdf5.h>
 #include <optional>
@@ -85,6 +86,8 @@ Shape shape_of(hid_t dataset);
 /// Writes elements begin .. begin + count - 1, counted in row-major order.
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                  std::int64_t count, const void* data);
+/// Stores the bytes of a whole chunk past the filters; start is that of the chunk.
+void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std::byte> bytes);
 void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                 std::int64_t count, void* data);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // make_samples FOLDER: writes results of every shape, for check_result.py.
-// make_samples FOLDER POINTS COLUMNS: writes one of that size, and prints time, size and memory.
+// make_samples FOLDER POINTS COLUMNS: writes one of that size (a multiple of 1000), and prints
+// time, size and memory.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -42,7 +43,7 @@ void write_samples(const std::string& folder) {
 }
 
 void write_large(const std::string& folder, std::int64_t points, std::size_t columns) {
-  sweep::Layout layout = io::sample::layout({points}, io::sample::Design::grid, false);
+  sweep::Layout layout = io::sample::layout({points / 1000, 1000}, io::sample::Design::grid, false);
   layout.columns.clear();
   for (std::size_t c = 0; c < columns; ++c) {
     layout.columns.push_back({"column_" + std::to_string(c), "N", "a column"});

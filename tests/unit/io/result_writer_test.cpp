@@ -157,6 +157,26 @@ TEST_F(ResultWriter, DoesNotDependOnTheSizeOfBlocks) {
   EXPECT_EQ(contents[0], contents[2]);
 }
 
+TEST_F(ResultWriter, ShrinksColumnsThatRepeatThemselves) {
+  sweep::Layout layout = sample::layout({100, 3000}, Design::grid, false);
+  layout.columns.resize(1);
+  const auto write_values = [&](double inner) {
+    const auto writer = make_result_writer(path_, layout);
+    sweep::Block block(0, 300000, 1, false);
+    for (std::int64_t i = 0; i < block.count; ++i) {
+      block.value(0, i) = std::sqrt(static_cast<double>(i / 3000) + inner * static_cast<double>(i));
+      block.status[static_cast<std::size_t>(i)] = sweep::Status::ok;
+    }
+    writer->write(block);
+    writer->finish({});
+    const hdf5::Handle file = hdf5::open_file_to_read(path_);
+    EXPECT_EQ(read<double>(file, layout.columns[0].name, H5T_NATIVE_DOUBLE), block.values);
+    return fs::file_size(path_);
+  };
+  EXPECT_LT(write_values(0.0), 200000u);
+  EXPECT_GT(write_values(0.1), 2400000u);
+}
+
 TEST_F(ResultWriter, LeavesNothingWhenAbandoned) {
   const sweep::Layout layout = sample::layout({100}, Design::grid, false);
   std::ofstream(path_) << "an older result";
