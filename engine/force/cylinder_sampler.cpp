@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -33,9 +34,12 @@ SamplingRun::Taylor taylor_of(const Harmonics& p, const Angle& angle, double fac
                               double direction) {
   const Harmonics q = shifted(p, angle);
   Row c1 = q.cos1, s1 = q.sin1, c2 = q.cos2, s2 = q.sin2;
+  static constexpr std::array<double, SamplingRun::kTaylorTerms> kReciprocals = {
+      1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4,  1.0 / 5,  1.0 / 6,
+      1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11, 1.0 / 12};
   SamplingRun::Taylor terms;
   for (int m = 0; m < SamplingRun::kTaylorTerms; ++m) {
-    factor /= m + 1;
+    factor *= kReciprocals[m];
     for (int row = 0; row < kRows; ++row) {
       terms[m][row] = factor * (c1[row] + c2[row] + (m == 0 ? q.constant[row] : 0.0));
       // (c1, s1) -> derivative along the direction; the second harmonic turns twice as fast.

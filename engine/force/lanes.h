@@ -32,10 +32,11 @@ inline constexpr Lanes kLaneIndex = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
   return lanes;
 }
 
-/// Adds the first `count` lanes (all from 8 on) to memory, of which all eight must be there.
-[[gnu::always_inline]] inline void add_to(double* to, const Lanes& lanes, int count) {
+/// Adds the first `count` lanes (all from 8 on) to memory, of which all eight must be there; what
+/// is there counts as zero if it is the first to be written.
+[[gnu::always_inline]] inline void add_to(double* to, const Lanes& lanes, int count, bool first) {
   const Lanes counted = kLaneIndex < Lanes{} + static_cast<double>(count) ? lanes : Lanes{};
-  const Lanes sum = load(to) + counted;
+  const Lanes sum = (first ? Lanes{} : load(to)) + counted;
   std::memcpy(to, &sum, sizeof sum);
 }
 

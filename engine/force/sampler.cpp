@@ -87,7 +87,6 @@ void ForceSampler::sample(const Coefficients& coefficients, double feed_per_toot
                             std::sin(direction)};
   const std::int64_t begin = ((first % period) + period) % period;
   const std::int64_t fresh = std::min(count, period);
-  for (double* row : rows) std::fill_n(row, fresh, 0.0);
   // The samples of one period are begin .. period - 1 and then 0 .. begin - 1.
   const std::int64_t before_wrap = std::min(fresh, period - begin);
   const auto add_run = [&](std::int64_t from, std::int64_t to, std::int64_t at) {
@@ -96,6 +95,7 @@ void ForceSampler::sample(const Coefficients& coefficients, double feed_per_toot
                     {static_cast<int>(from), static_cast<int>(to)},
                     {rows[0] + at, rows[1] + at, rows[2] + at, rows[3] + at});
     geometry_->add_to(run);
+    run.finish();
   };
   add_run(begin, begin + before_wrap, 0);
   add_run(0, fresh - before_wrap, before_wrap);

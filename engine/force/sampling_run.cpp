@@ -63,19 +63,34 @@ IndexRange SamplingRun::between(const Pass& pass, double from, double to, Closed
   return {first_after(from), first_after(to)};
 }
 
+void SamplingRun::put_zeros(IndexRange indices) {
+  const int count = indices.last - indices.first;
+  for (double* row : rows_) std::fill_n(row + (indices.first - indices_.first), count, 0.0);
+}
+
+void SamplingRun::finish() {
+  if (!written_) put_zeros(indices_);
+}
+
 template <class Evaluate>
 [[gnu::always_inline]] inline void SamplingRun::accumulate(IndexRange indices,
                                                            const Evaluate& evaluate) {
+  if (indices.first >= indices.last) return;
+  const bool first = !written_;
   for (int n = indices.first; n < indices.last; n += kLanes) {
     const int count = indices.last - n;
     const int at = n - indices_.first;
     Lanes x, y, z, torque;
     evaluate(n, x, y, z, torque);
-    add_to(rows_[0] + at, x, count);
-    add_to(rows_[1] + at, y, count);
-    add_to(rows_[2] + at, z, count);
-    add_to(rows_[3] + at, torque, count);
+    add_to(rows_[0] + at, x, count, first);
+    add_to(rows_[1] + at, y, count, first);
+    add_to(rows_[2] + at, z, count, first);
+    add_to(rows_[3] + at, torque, count, first);
   }
+  if (!first) return;
+  put_zeros({indices_.first, indices.first});
+  put_zeros({indices.last, indices_.last});
+  written_ = true;
 }
 
 void SamplingRun::add(const Pass& pass, IndexRange indices, const Harmonics& force) {
@@ -120,11 +135,12 @@ void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor&
     const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
     x = y = z = torque = Lanes{};
     for (int m = kTaylorTerms - 1; m >= 0; --m) {
-      x = (x + terms[m][0]) * d;
-      y = (y + terms[m][1]) * d;
-      z = (z + terms[m][2]) * d;
-      torque = (torque + terms[m][3]) * d;
+      x = x * d + terms[m][0];
+      y = y * d + terms[m][1];
+      z = z * d + terms[m][2];
+      torque = torque * d + terms[m][3];
     }
+    x *= d, y *= d, z *= d, torque *= d;
   });
 }
 

@@ -53,13 +53,16 @@ class SamplingRun {
   using Row = Harmonics::Row;
 
   /// @param direction  feed direction theta [rad], reduced to +-pi; with carries its sine, cosine
-  /// @param rows       x, y, z, torque of index `first`, last - first values, zeroed,
+  /// @param rows       x, y, z, torque of index `first`: last - first values, to be overwritten,
   ///                   and then room for one vector
   SamplingRun(const AngleTables& tables, double direction, const Combination& with,
               IndexRange indices, std::array<double*, kRows> rows);
 
   /// What the call combines the geometry with.
   const Combination& with() const { return with_; }
+
+  /// To be called when all is added: makes samples zero that nothing was added to.
+  void finish();
 
   /// Calls visit(pass) for every pass of a tooth whose tip can be between two angles [rad]: tooth
   /// after tooth, turn after turn, for these differ by multiples of the pitch alone.
@@ -96,8 +99,10 @@ class SamplingRun {
 
  private:
   Pass pass(std::int64_t q) const;
+  void put_zeros(IndexRange indices);
 
-  /// Runs evaluate(n, x, y, z, torque) over indices and adds the lanes it fills in.
+  /// Runs evaluate(n, x, y, z, torque) over indices and adds the lanes it fills in. The first to
+  /// come writes and puts zeros around it: most of a revolution is then touched once, not twice.
   template <class Evaluate>
   void accumulate(IndexRange indices, const Evaluate& evaluate);
 
@@ -107,6 +112,7 @@ class SamplingRun {
   double per_pitch_;
   IndexRange indices_;
   std::array<double*, kRows> rows_;
+  bool written_ = false;
 };
 
 }  // namespace millstudy::force
