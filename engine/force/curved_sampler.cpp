@@ -9,35 +9,44 @@
 namespace millstudy::force {
 namespace {
 
-/// Enough for a whole ball at 80 deg of helix; the series is cut where its terms are rounding.
-constexpr int kNodes = 96;
-constexpr double kNegligible = 1e-17;
+/// Terms below this part of the largest are rounding.
+constexpr double kNegligible = 1e-16;
 
-/// (F14): Chebyshev coefficients, in 2 sqrt(l / lag) - 1, of the edge from the tip up to the lag
-/// l, whose point at l stands at the angle `limit`.
-PreparedRows series_at(const cutter::Cutter& cutter, double limit, double top) {
-  std::vector<Basis<double>> values(kNodes);
-  for (int i = 0; i < kNodes; ++i) {
-    const double s = 0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / kNodes);
-    const double z = top * s * s;
-    add_edge(values[i], cutter, limit + cutter::lag_rate(cutter) * z, 0.0, z);
-  }
-  const auto series_of = [&](int terms) {
-    PreparedRows series(terms);
-    for (int m = 0; m < terms; ++m) {
-      for (int i = 0; i < kNodes; ++i) {
-        const double factor = (m == 0 ? 1.0 : 2.0) / kNodes;
-        series.add(m, values[i], factor * std::cos(core::kPi * m * (i + 0.5) / kNodes));
-      }
+/// Chebyshev coefficients of `nodes` values of U (F14), in 2 sqrt(l / lag) - 1.
+PreparedRows transform(const std::vector<Basis<double>>& values) {
+  const int nodes = static_cast<int>(values.size());
+  std::vector<double> cosines;  // of pi i / (2 nodes), a whole turn
+  for (int i = 0; i < 4 * nodes; ++i) cosines.push_back(std::cos(0.5 * core::kPi * i / nodes));
+  PreparedRows series(nodes);
+  for (int m = 0; m < nodes; ++m) {
+    for (int i = 0; i < nodes; ++i) {
+      const double factor = (m == 0 ? 1.0 : 2.0) / nodes;
+      series.add(m, values[i], factor * cosines[m * (2 * i + 1) % (4 * nodes)]);
     }
+  }
+  return series;
+}
+
+/// (F14): the edge from the tip up to the lag l, whose point at l stands at the angle `limit`. 32
+/// terms are enough for the usual helix; a whole ball at 80 deg takes 96.
+PreparedRows series_at(const cutter::Cutter& cutter, double limit, double top) {
+  for (const int nodes : {32, 64, 96}) {
+    std::vector<Basis<double>> values(nodes);
+    for (int i = 0; i < nodes; ++i) {
+      const double s = 0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / nodes);
+      const double z = top * s * s;
+      add_edge(values[i], cutter, limit + cutter::lag_rate(cutter) * z, 0.0, z);
+    }
+    PreparedRows series = transform(values);
+    double largest = 0.0;
+    for (int m = 0; m < nodes; ++m) largest = std::max(largest, series.largest(m));
+    int terms = nodes;
+    while (terms > 1 && series.largest(terms - 1) < kNegligible * largest) --terms;
+    if (terms > nodes - 2 && nodes < 96) continue;  // not resolved: the tail is no rounding yet
+    series.keep(terms);
     return series;
-  };
-  const PreparedRows all = series_of(kNodes);
-  double largest = 0.0;
-  for (int m = 0; m < kNodes; ++m) largest = std::max(largest, all.largest(m));
-  int terms = kNodes;
-  while (terms > 1 && all.largest(terms - 1) < kNegligible * largest) --terms;
-  return series_of(terms);
+  }
+  return PreparedRows{};
 }
 
 std::vector<double> combined(const PreparedRows& series, const Combination& with, double factor) {

@@ -60,12 +60,17 @@ struct Combination {
 /// for combine().
 class PreparedRows {
  public:
-  explicit PreparedRows(std::size_t rows = 0)
-      : rows_(rows), padded_((kRows * rows + kLanes - 1) / kLanes * kLanes) {
+  explicit PreparedRows(std::size_t rows = 0) : rows_(rows), padded_(padded(rows)) {
     for (std::vector<double>& column : columns_) column.assign(padded_, 0.0);
   }
 
   std::size_t rows() const { return rows_; }
+
+  /// Forgets all but the first rows.
+  void keep(std::size_t rows) {
+    rows_ = rows;
+    padded_ = padded(rows);
+  }
 
   /// Adds factor times a basis to one row.
   void add(std::size_t row, const Basis<double>& basis, double factor) {
@@ -106,6 +111,10 @@ class PreparedRows {
   std::size_t padded() const { return padded_; }
 
  private:
+  static std::size_t padded(std::size_t rows) {
+    return (kRows * rows + kLanes - 1) / kLanes * kLanes;
+  }
+
   std::size_t rows_;
   std::size_t padded_;
   std::array<std::vector<double>, 2 * kColumns> columns_;  // each of shape (rows, kRows), padded

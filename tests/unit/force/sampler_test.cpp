@@ -85,6 +85,21 @@ TEST(ForceSampler, AgreesWithTheReferenceKernelForBall) {
   worst_disagreement(cutter::Shape::ball, {}, 100, false, 1e-12);
 }
 
+TEST(ForceSampler, AgreesWithTheReferenceKernelForBallsOfEveryHelix) {
+  for (const double helix_deg : {-80.0, -60.0, -1.0, 0.0, 1e-8, 15.0, 45.0, 70.0, 80.0}) {
+    double worst = 0.0;
+    for (const double depth : {0.01, 0.5, 5.0, 6.0, 11.0}) {
+      const cutter::Cutter cutter{cutter::Shape::ball, 12.0, 3, core::rad_from_deg(helix_deg)};
+      for (const Engagement& engagement : {slot(depth), up_milling(6.0, 0.01, depth)}) {
+        const Case c{cutter, engagement, 0.06, testing::kGgg70};
+        worst = std::max(worst, disagreement(c, {}, 250, 0.4));
+      }
+    }
+    EXPECT_LT(worst, 1e-12) << helix_deg;
+    std::cout << "ball, helix " << helix_deg << " deg: " << worst << " of the peak\n";
+  }
+}
+
 TEST(ForceSampler, AgreesWithTheReferenceKernelForDiscs) {
   worst_disagreement(cutter::Shape::flat, {Rule::discs, 37}, 100, true, 1e-13);
   worst_disagreement(cutter::Shape::ball, {Rule::discs, 37}, 100, true, 1e-13);
