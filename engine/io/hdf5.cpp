@@ -96,6 +96,7 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const S
   const hid_t id = creation.get();
   check(H5Pset_attr_creation_order(id, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
         "track the order of attributes");
+  check(H5Pset_obj_track_times(id, false), "leave out times");  // same study, same bytes
   if (!options.chunk.empty() && !shape.empty()) {
     check(H5Pset_chunk(id, static_cast<int>(shape.size()), sizes(options.chunk).data()),
           "set a chunk shape");

@@ -145,6 +145,7 @@ Handle create_file(Output& output) {
   constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
   check(H5Pset_link_creation_order(creation.get(), kOrder), "track the order of variables");
   check(H5Pset_attr_creation_order(creation.get(), kOrder), "track the order of attributes");
+  check(H5Pset_obj_track_times(creation.get(), false), "leave out times");
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), "make a property list");
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18), "choose a format");
   Output* const info = &output;

@@ -163,7 +163,7 @@ void PointTable::add_variables() {
   };
   for (const std::string& name : names_in(file_.get())) {
     if (name == "status" || name == "failure_code" || known(name)) continue;
-    if (!is_dataset(file_.get(), name)) continue;
+    if (name.starts_with("trace_") || !is_dataset(file_.get(), name)) continue;
     Handle dataset = open(file_.get(), name);
     const H5T_class_t type = class_of(dataset.get());
     if (type != H5T_FLOAT && type != H5T_INTEGER) continue;

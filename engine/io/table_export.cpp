@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/table_export.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 
@@ -30,10 +32,14 @@ void export_table(const std::string& result_path, const std::string& output_path
     const PointTable table(result_path);
     AtomicFile target(output_path);
     std::ofstream out(target.temporary_path(), std::ios::binary | std::ios::trunc);
+    out.exceptions(std::ios::badbit | std::ios::failbit);
     write(table, out);
     out.close();
-    if (!out) throw ResourceError(fmt::format("{}: cannot be written: disk full?", output_path));
     target.commit();
+  } catch (const std::ios_base::failure&) {
+    const int error = errno;  // of the write that failed: the stream's own text says nothing
+    throw ResourceError(fmt::format("{}: cannot be written: {}", output_path,
+                                    std::strerror(error != 0 ? error : EIO)));
   } catch (const hdf5::Error& error) {
     throw core::InputError({{core::Place{result_path, 0},
                              fmt::format("is no readable result file: {}", error.what())}});

@@ -4,6 +4,7 @@
 
 check_result.py MAKE_IO_SAMPLES   (the program that writes the samples; docs/result_file.md)
 """
+import csv
 import pathlib
 import shutil
 import subprocess
@@ -138,6 +139,30 @@ def check_with_ncdump(name, path):
         assert "sample = UNLIMITED" in header.stdout, header.stdout[:1000]
 
 
+def check_tables(path):
+    """The .npy and the .csv of a result say what the result says."""
+    table = np.load(path.replace(".h5", ".npy"))
+    with open(path.replace(".h5", ".csv"), newline="", encoding="utf-8") as file:
+        titles, *rows = csv.reader(file)
+    assert [title.split(" [")[0] for title in titles] == list(table.dtype.names)
+    assert "force_resultant_mean [N]" in titles and "steps" in titles
+    with xr.open_dataset(path) as data:
+        reasons = np.where(data["failure_code"] > 0, data["failure"].values[data["failure_code"]], "")
+        words = np.array(["ok", "failed", "skipped", "not_run"])[data["status"]]
+        assert (table["failure"] == reasons.ravel()).all()
+        assert (table["status"] == words.ravel()).all()
+        for name in set(table.dtype.names) - {"failure", "status"}:
+            expected = np.ravel(xr.broadcast(data[name], data["status"])[0].transpose(
+                *data["status"].dims).values)
+            field = [row[titles.index(next(t for t in titles if t.split(" [")[0] == name))]
+                     for row in rows]
+            if expected.dtype.kind == "f":
+                np.testing.assert_array_equal(table[name], expected)
+                np.testing.assert_array_equal([float(text or "nan") for text in field], expected)
+            elif name != "point":
+                assert (table[name] == expected).all() and (field == expected).all(), name
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.argv[1], folder], check=True)
@@ -145,6 +170,8 @@ def main():
             path = str(pathlib.Path(folder) / f"{name}.h5")
             check_with_xarray(name, path)
             check_with_h5py(path)
+            if pathlib.Path(path.replace(".h5", ".npy")).exists():
+                check_tables(path)
             if shutil.which("ncdump"):
                 check_with_ncdump(name, path)
             print(f"{name}: opened by xarray ({', '.join(ENGINES)}), h5py, ncdump")

@@ -12,6 +12,7 @@
 
 #include "io/result_writer.h"
 #include "io/sample_results.h"
+#include "io/table_export.h"
 
 namespace {
 
@@ -40,6 +41,10 @@ void write_samples(const std::string& folder) {
   write(folder + "/grid4.h5", io::sample::layout({5, 3, 6, 2}, Design::grid, false), 11, late);
   write(folder + "/same.h5", io::sample::layout({12, 12}, Design::grid, true), 5, late);
   write(folder + "/zip.h5", io::sample::layout({100}, Design::zip, true), 13, late);
+  for (const std::string name : {"scalar", "grid2", "zip"}) {
+    io::export_table(folder + "/" + name + ".h5", folder + "/" + name + ".csv");
+    io::export_table(folder + "/" + name + ".h5", folder + "/" + name + ".npy");
+  }
 }
 
 void write_large(const std::string& folder, std::int64_t points, std::size_t columns) {
