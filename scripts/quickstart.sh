@@ -19,6 +19,6 @@ status=0
 build/release/millstudy run studies/ggg70_slot.toml -o "$results/ggg70_slot.h5" || status=$?
 [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || exit "$status"
 
-echo "picture: $(/usr/bin/python3 scripts/plot_study.py "$results/ggg70_slot.h5" -o "$results/ggg70_slot.png" |
-  tail -n 1)"
+echo "picture: $(/usr/bin/python3 scripts/plot_study.py "$results/ggg70_slot.h5" \
+  --variable force_resultant_max -o "$results/ggg70_slot.png" | tail -n 1)"
 exit "$status"

@@ -49,12 +49,14 @@ struct Key {
   std::string_view unit;  ///< one of units(): mm, deg, rpm; empty where there is none
   Range range;
   Default fallback = Required{};
-  std::string_view help;  ///< one line
+  std::string_view help;  ///< one line: its name, then what else there is to say after : or ;
   Field (*field)(Case&) = nullptr;
   std::vector<std::string_view> choices = {};  ///< of a choice
 
   /// Last part of the path: axial_depth_mm.
   std::string_view name() const { return path.substr(path.rfind('.') + 1); }
+  /// For axes of plots: the name that help begins with.
+  std::string_view label() const { return help.substr(0, help.find_first_of(":;")); }
   /// General keys set nothing and stay the same over a sweep.
   bool sweepable() const { return field != nullptr || type == KeyType::file; }
   bool required() const { return std::holds_alternative<Required>(fallback); }
@@ -73,7 +75,8 @@ struct Unit {
 const Unit& unit_named(std::string_view name);
 
 /// Keys by section, as studies use them.
-std::span<const Key> general_keys();      ///< schema_version, [study], [output]; set nothing
+std::span<const Key> general_keys();      ///< schema_version, [study]; set nothing
+std::span<const Key> output_keys();       ///< [output], for kinds with traces; sets nothing
 std::span<const Key> path_keys();         ///< [path]
 std::span<const Key> path_feed_keys();    ///< [cut], all that kind path takes of it
 std::span<const Key> cutter_keys();       ///< [cutter]

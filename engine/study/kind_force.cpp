@@ -49,7 +49,8 @@ const Kind& force_kind() {
   static const Kind kind = {
       .name = "force",
       .help = "the cutting force over one revolution, fed along x",
-      .sections = {general_keys(), cutter_keys(), coefficient_keys(), cut_keys(), numerics_keys()},
+      .sections = {general_keys(), cutter_keys(), coefficient_keys(), cut_keys(), numerics_keys(),
+                   output_keys()},
       .columns = force_columns(),
       .has_traces = true,
       .check = check,

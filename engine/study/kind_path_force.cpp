@@ -82,7 +82,7 @@ const Kind& path_force_kind() {
       .name = "path_force",
       .help = "the cutting force along an interpolated curve, in machine axes",
       .sections = {general_keys(), path_keys(), cutter_keys(), coefficient_keys(), cut_keys(),
-                   numerics_keys()},
+                   numerics_keys(), output_keys()},
       .columns = columns(),
       .has_traces = true,
       .check = check,

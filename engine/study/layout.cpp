@@ -38,7 +38,7 @@ sweep::Layout layout(const Study& study) {
     const Axis& axis = study.axes[a];
     sweep::Coordinate coordinate{names[a], axis.path,
                                  std::string(unit_named(axis.key->unit).udunits),
-                                 std::string(axis.key->help), axis.numbers};
+                                 std::string(axis.key->label()), axis.numbers};
     if (!axis.key->numeric()) coordinate.values = axis.labels;
     if (study.space.design() == sweep::Design::grid) {
       result.dimensions.push_back(names[a]);
