@@ -6,6 +6,7 @@
 // Prints Google Benchmark's table and then the ratios, from medians of the repetitions. Run it on
 // an idle machine: the ratio is of two single-threaded loops, but both share the caches.
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdio>
@@ -83,6 +84,26 @@ void cold(benchmark::State& state, cutter::Shape shape, double depth) {
   }
 }
 
+/// A baseline that computed something else would prove nothing: both must agree to what 200 discs
+/// are worth.
+bool baseline_agrees(double depth) {
+  const cutter::Cutter cutter = haber(cutter::Shape::flat);
+  std::vector<double> x(kSteps), y(kSteps), z(kSteps);
+  baseline::DiscForce(cutter.diameter, cutter.flutes, cutter.helix_angle, depth, kDiscs, kSteps)
+      .revolution(kGgg70, kFeed, x.data(), y.data(), z.data());
+  force::ForceSamples exact;
+  force::ForceSampler(cutter, force::slot(depth), {}, kSteps)
+      .sample(kGgg70, kFeed, 0.0, 0, kSteps, exact);
+  double peak = 0.0, off = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    peak = std::max({peak, std::abs(exact.x[i]), std::abs(exact.y[i])});
+    off = std::max({off, std::abs(exact.x[i] - x[i]), std::abs(exact.y[i] - y[i]),
+                    std::abs(exact.z[i] - z[i])});
+  }
+  std::printf("baseline against exact, %g mm deep: %.1e of the peak\n", depth, off / peak);
+  return off < 1e-2 * peak;
+}
+
 /// Prints the table as ever and keeps the medians.
 class MedianReporter : public benchmark::ConsoleReporter {
  public:
@@ -143,4 +164,5 @@ int main(int argc, char** argv) {
   benchmark::RunSpecifiedBenchmarks(&reporter);
   print_ratio(reporter, "0.5mm");
   print_ratio(reporter, "20mm");
+  return baseline_agrees(0.5) && baseline_agrees(20.0) ? 0 : 1;
 }
