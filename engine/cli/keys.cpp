@@ -15,7 +15,13 @@ int print_keys(const std::string& kind, bool markdown) {
     fmt::print("{}", study::key_reference(*known, markdown));
     found = true;
   }
-  if (!found) throw core::InputError(fmt::format("there is no kind \"{}\"", kind));
+  if (!found) {
+    std::string names;
+    for (const study::Kind* known : study::kinds()) {
+      names += (names.empty() ? "" : ", ") + std::string(known->name);
+    }
+    throw core::InputError(fmt::format("there is no kind \"{}\": one of {}", kind, names));
+  }
   return kDone;
 }
 

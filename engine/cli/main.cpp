@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/version.h"
@@ -15,8 +16,14 @@ int guarded(const std::function<int()>& command) {
   try {
     return command();
   } catch (const core::InputError& error) {
+    constexpr std::size_t kMostLines = 100;  // a curve can have a million wrong points
+    std::size_t lines = 0;
     for (const core::Fault& fault : error.faults()) {
+      if (lines++ == kMostLines) break;
       std::fprintf(stderr, "%s\n", to_string(fault).c_str());
+    }
+    if (lines > kMostLines) {
+      std::fprintf(stderr, "and %zu more\n", error.faults().size() - kMostLines);
     }
     return cli::kBadInput;
   } catch (const io::ResourceError& error) {
@@ -29,6 +36,23 @@ int guarded(const std::function<int()>& command) {
     std::fprintf(stderr, "internal error: %s\n", error.what());
     return cli::kInternalError;
   }
+}
+
+/// One line that says what is wrong with the command and where to read on.
+std::string usage_fault(const CLI::App* app, const CLI::Error& error) {
+  std::string command = app->get_name();
+  for (const CLI::App* verb : app->get_subcommands()) command += ' ' + verb->get_name();
+  return command + ": " + error.what() + "; see " + command + " --help\n";
+}
+
+/// The first word of the command, if it is neither a verb nor a flag.
+std::optional<std::string> unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  const std::string word = argv[1];
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (verb->get_name() == word) return std::nullopt;
+  }
+  return word;
 }
 
 void add_study_options(CLI::App& verb, cli::StudyOptions& study) {
@@ -79,6 +103,17 @@ int main(int argc, char** argv) {
   run->footer("Keys of the study file: millstudy keys");
   plan->footer("Keys of the study file: millstudy keys");
 
+  app.failure_message(usage_fault);
+  if (argc < 2) {
+    std::fputs("millstudy: give one of plan, run, export, keys; see millstudy --help\n", stderr);
+    return cli::kBadInput;
+  }
+  if (const auto word = unknown_verb(app, argc, argv)) {
+    std::fprintf(stderr,
+                 "millstudy: %s is not one of plan, run, export, keys; see millstudy --help\n",
+                 word->c_str());
+    return cli::kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

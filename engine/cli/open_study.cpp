@@ -28,7 +28,13 @@ core::Value parse_override(const std::string& text) {
       if (c == '"' || c == '\\') quoted += '\\';
       quoted += c;
     }
-    return io::parse_toml(text.substr(0, equals) + "= \"" + quoted + '"', name);
+    try {
+      return io::parse_toml(text.substr(0, equals) + "= \"" + quoted + '"', name);
+    } catch (const core::InputError&) {
+      throw core::InputError({{{name, 0},
+                               fmt::format("\"{}\" is not a dotted key such as cut.axial_depth_mm",
+                                           text.substr(0, equals))}});
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fmt/chrono.h>
@@ -107,10 +108,10 @@ int print_outcome(const Outcome& outcome, const StudyOptions& options,
     for (const auto& [reason, count] : failures) {
       fmt::print("  {} failed: {}\n", count_text(count), reason);
     }
-    fmt::print(
-        "time:   {} on {} thread{}, {} points/s\n", duration_text(outcome.seconds), outcome.threads,
-        outcome.threads == 1 ? "" : "s",
-        count_text(static_cast<std::int64_t>(static_cast<double>(points) / outcome.seconds)));
+    const double rate = static_cast<double>(points) / std::max(outcome.seconds, 1e-6);
+    fmt::print("time:   {} on {} thread{}, {} points/s\n", duration_text(outcome.seconds),
+               outcome.threads, outcome.threads == 1 ? "" : "s",
+               count_text(static_cast<std::int64_t>(rate)));
     std::error_code error;
     const auto bytes = static_cast<double>(fs::file_size(outcome.result, error));
     fmt::print("result: {} ({})\n", outcome.result, bytes_text(error ? 0.0 : bytes));
@@ -160,6 +161,10 @@ void move_aside(const fs::path& path) {
 int run(const StudyOptions& options, const RunSettings& settings) {
   const OpenStudy open = open_study(options);
   const std::string path = settings.output.empty() ? open.study.name + ".h5" : settings.output;
+  std::error_code different;
+  if (fs::equivalent(path, options.file, different)) {
+    throw core::InputError({{{path, 0}, "is the study itself: give another result file with -o"}});
+  }
   if (!settings.fresh) {
     if (const auto outcome = finished_result(path, open)) {
       return print_outcome(*outcome, options, {});
@@ -173,13 +178,13 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   ProgressDisplay display(settings.quiet);
   const std::atomic<bool>& stop = stop_on_signal();
   const sweep::Progress progress =
-      sweep::run_blocks(layout, study::block_evaluator(open.study), sink,
+      sweep::run_blocks(layout, study::block_evaluator(open.study, &stop), sink,
                         {.threads = threads,
                          .block_size = settings.block_size,
                          .stop = &stop,
                          .progress = [&](const sweep::Progress& now) { display.show(now); }});
   if (progress.done() < progress.points) {
-    fmt::print(stderr, "\ninterrupted after {} of {} points: nothing was kept\n",
+    fmt::print(stderr, "interrupted after {} of {} points: nothing was kept\n",
                count_text(progress.done()), count_text(progress.points));
     return kInterrupted;
   }

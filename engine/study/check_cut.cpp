@@ -63,7 +63,11 @@ void check_cut(const Given& given, const Case& base, Faults& faults) {
   try {
     engagement(base);
   } catch (const core::CaseError& error) {
-    faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg"}), error.what());
+    std::string text = error.what();
+    if (base.cut.radial_depth) {
+      text += fmt::format(" ({} > {} mm)", *base.cut.radial_depth, base.cutter.diameter);
+    }
+    faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg"}), std::move(text));
   }
 }
 

@@ -129,6 +129,9 @@ class Resolver {
         } else {
           faults_.add(value.place,
                       fmt::format("{} must be a table, not {}", path, type_name(value)));
+          for (const std::string_view known : known_) {
+            if (known.starts_with(path + '.')) reported_.push_back(known);
+          }
         }
       } else {
         refuse_unknown(path, value);
@@ -147,15 +150,26 @@ class Resolver {
                                                     study_.kind->name));
       }
     }
-    std::vector<std::string_view> words = known_;
-    if (value.is_table()) {
-      for (std::string_view& word : words) word = word.substr(0, word.rfind('.'));
-    }
-    faults_.add(value.place, fmt::format("{} is not a {} of kind {}{}", path,
+    const std::string_view meant = meant_by(path, value.is_table());
+    faults_.add(value.place, fmt::format("{} is not a {} of kind {}{}{}", path,
                                          value.is_table() ? "section" : "key", study_.kind->name,
-                                         suggestion(path, words)));
-    const std::string_view meant = nearest(path, words);
-    if (!meant.empty()) misspelt_.push_back(meant);
+                                         meant.empty() ? "" : "; did you mean ",
+                                         meant.empty() ? "" : fmt::format("{}?", meant)));
+    if (!meant.empty()) reported_.push_back(meant);
+  }
+
+  /// The key or section that is nearest to an unknown one: the same name elsewhere, or a
+  /// misspelling.
+  std::string_view meant_by(std::string_view path, bool section) const {
+    std::vector<std::string_view> words = known_;
+    if (section) {
+      for (std::string_view& word : words) word = word.substr(0, word.rfind('.'));
+    } else {
+      for (const std::string_view known : known_) {
+        if (path.substr(path.rfind('.') + 1) == study_.kind->find_key(known)->name()) return known;
+      }
+    }
+    return nearest(path, words);
   }
 
   void read_key(const Key& key, const core::Value& value) {
@@ -163,7 +177,7 @@ class Resolver {
       return faults_.add(value.place, fmt::format("{} is given twice", key.path));
     }
     given_.entries[key.path] = {&key, value.place, false};
-    faults_.collect([&] {
+    const bool fine = faults_.collect([&] {
       if (key.type == KeyType::file) {
         for (Assignment& assignment : settings_of_file(key, value))
           keep(std::move(assignment), value);
@@ -171,6 +185,8 @@ class Resolver {
         settings_.insert_or_assign(key.path, checked_setting(key, value));
       }
     });
+    if (!fine && key.type == KeyType::file)
+      reported_.push_back(key.path.substr(0, key.path.find('.')));
   }
 
   /// What a file says yields to what the study says itself.
@@ -226,7 +242,8 @@ class Resolver {
       core::Value content = load_((folder_ / name).string());
       if (content.find("study")) {
         throw core::InputError(
-            {{content.place, fmt::format("is a study, not what {} stands for", key.path)}});
+            {{content.place, fmt::format("is a study, not a {} file",
+                                         key.name().substr(0, key.name().rfind('_')))}});
       }
       return content;
     } catch (const core::InputError& error) {
@@ -242,16 +259,16 @@ class Resolver {
   void find_missing() {
     for (const std::span<const Key> section : study_.kind->sections) {
       for (const Key& key : section) {
-        if (key.required() && !given_.has(key.path) && !is_misspelt(key.path)) {
+        if (key.required() && !given_.has(key.path) && !is_reported(key.path)) {
           faults_.add(given_.file, missing(key));
         }
       }
     }
   }
 
-  /// A key that stands there under a wrong name is reported once, not as missing too.
-  bool is_misspelt(std::string_view path) const {
-    return std::any_of(misspelt_.begin(), misspelt_.end(), [&](std::string_view meant) {
+  /// A key under a wrong name, or in a file with faults, is not reported as missing too.
+  bool is_reported(std::string_view path) const {
+    return std::any_of(reported_.begin(), reported_.end(), [&](std::string_view meant) {
       return path == meant || (path.starts_with(meant) && path[meant.size()] == '.');
     });
   }
@@ -306,7 +323,7 @@ class Resolver {
       faults_.add(
           limit.place,
           fmt::format("sweep.where: quantity = \"{}\" is not given in this study{}", key->path,
-                      computed ? fmt::format("; {} is computed", key->name()) : ""));
+                      computed ? fmt::format(": use {}, which is computed", key->name()) : ""));
     }
   }
 
@@ -391,7 +408,7 @@ class Resolver {
   Given given_;
   Study study_;
   std::vector<std::string_view> known_;
-  std::vector<std::string_view> misspelt_;  // keys and sections that stand there under wrong names
+  std::vector<std::string_view> reported_;  // keys and sections whose fault is known
   std::map<std::string_view, Setting> settings_;
 };
 

@@ -86,7 +86,7 @@ class SweepReader {
     }
     if (std::any_of(study_.axes.begin(), study_.axes.end(),
                     [&](const Axis& axis) { return axis.key == &key; })) {
-      return faults_.add(value.place, fmt::format("sweep.axes: {} stands there twice", key.path));
+      return faults_.add(value.place, fmt::format("sweep.axes: {} is given twice", key.path));
     }
     Axis axis{std::string(key.path), &key, {}, {}, {}};
     const bool fine = faults_.collect([&] {
