@@ -1,0 +1,6 @@
+// Two of these includes are allowed.
+#include "core/error.h"
+#include "force/own.h"
+#include "study/study.h"
+#  include "path/curve.h"
+// #include "io/hdf5.h" is only a comment.
