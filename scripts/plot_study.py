@@ -45,13 +45,21 @@ def text(value):
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
+def shown_units(units):
+    """UDUNITS as people write them: "mm min-1" is "mm/min"; empty for a pure number."""
+    names = {"1": "", "percent": "%", "degree": "°", "um": "µm"}
+    above = [names.get(part, part) for part in units.split() if not part.endswith("-1")]
+    below = [part[:-2] for part in units.split() if part.endswith("-1") and part != "-1"]
+    return "/".join([" ".join(above) or ("1" if below else "")] + below)
+
+
 class Axis:
     """Values along one axis, with its label; texts are categories 0, 1, 2, ..."""
 
     def __init__(self, dataset):
         self.name = dataset.name.lstrip("/")
         self.long_name = text(dataset.attrs.get("long_name", "")) or self.name
-        self.units = text(dataset.attrs.get("units", "1"))
+        self.units = shown_units(text(dataset.attrs.get("units", "1")))
         self.words = None
         if dataset.dtype.kind in "OS":
             self.words = [text(word) for word in dataset[()]]
@@ -64,7 +72,7 @@ class Axis:
 
     @property
     def label(self):
-        return self.short if self.units == "1" else f"{self.short} [{self.units}]"
+        return f"{self.short} [{self.units}]" if self.units else self.short
 
     @property
     def short(self):
@@ -74,7 +82,7 @@ class Axis:
     def value_text(self, index):
         if self.words:
             return self.words[index]
-        unit = "" if self.units == "1" else f" {self.units}"
+        unit = f" {self.units}" if self.units else ""
         return f"{self.values[index]:.6g}{unit}"
 
 
@@ -94,9 +102,8 @@ class Study:
         self.status = np.asarray(file["status"][()])
         self.data = np.where((self.status == 0) & np.isfinite(self.data), self.data, np.nan)
         self.label = text(dataset.attrs.get("long_name", self.name))
-        units = text(dataset.attrs.get("units", "1"))
-        if units != "1":
-            self.label += f" [{'%' if units == 'percent' else units}]"
+        units = shown_units(text(dataset.attrs.get("units", "1")))
+        self.label += f" [{units}]" if units else ""
         names = text(dataset.attrs.get("coordinates", "")).split()
         self.is_grid = not names and self.data.ndim > 0
         if self.is_grid:
@@ -254,7 +261,7 @@ def draw_points(figure, study):
     """Zip and sampled designs: points over the first parameter that varies."""
     varying = [axis for axis in study.axes if len(set(axis.values)) > 1] or study.axes
     axis, axes = varying[0], figure.subplots()
-    ordered = len(axis) <= 200 and bool((np.diff(axis.values) > 0).all()) and not axis.words
+    ordered = 3 <= len(axis) <= 200 and bool((np.diff(axis.values) > 0).all()) and not axis.words
     axes.plot(axis.values, study.data, "o-" if ordered else "o", color=CURVE_COLOURS[0],
               markersize=4 if len(axis) <= 200 else 2, alpha=1.0 if ordered else 0.7,
               markeredgewidth=0)

@@ -79,11 +79,13 @@ class ChunkStream {
       shape_[0] = next_ + count;
       hdf5::extend(dataset_.get(), shape_[0]);
     }
-    if (shape_.empty() || is_repetitive(std::span<const T>(held_))) {
+    const std::int64_t whole = element_count(chunk_);
+    const bool mostly_empty = 2 * count < whole;  // the end of an unlimited variable
+    if (shape_.empty() || mostly_empty || is_repetitive(std::span<const T>(held_))) {
       hdf5::write_range(dataset_.get(), memory_type<T>(), shape_, next_, count, held_.data());
     } else {
       // A chunk is short only at its end: all dimensions after the split one are whole in it.
-      held_.resize(static_cast<std::size_t>(element_count(chunk_)));
+      held_.resize(static_cast<std::size_t>(whole));
       hdf5::write_chunk_unfiltered(dataset_.get(), row_major_boxes(shape_, next_, next_ + 1)[0],
                                    std::as_bytes(std::span<const T>(held_)));
     }
