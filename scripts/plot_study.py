@@ -263,7 +263,8 @@ def draw_points(figure, study):
     axis, axes = varying[0], figure.subplots()
     ordered = 3 <= len(axis) <= 200 and bool((np.diff(axis.values) > 0).all()) and not axis.words
     axes.plot(axis.values, study.data, "o-" if ordered else "o", color=CURVE_COLOURS[0],
-              markersize=4 if len(axis) <= 200 else 2, alpha=1.0 if ordered else 0.7,
+              markersize=6 if len(axis) <= 20 else 4 if len(axis) <= 200 else 2,
+              alpha=1.0 if len(axis) <= 200 else 0.6,
               markeredgewidth=0)
     dress_axis(axes, "x", axis)
     axes.set_ylabel(study.label)
