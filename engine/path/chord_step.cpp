@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "path/chord_root.h"
+#include "path/local_chord.h"
 
 namespace millstudy::path {
 namespace {
@@ -67,6 +68,123 @@ ChordStep search_step(const Curve& curve, const Stand& from, double chord,
   return step;
 }
 
+/// What is known of a step when its updates are done.
+struct NewtonEnd {
+  Cursor at;
+  double residual;  // wanted chord less chord
+  double previous;  // |residual| one update before
+  double speed;     // |dR/dt| at the start
+  int updates;
+};
+
+/// Whether Newton's result stands: it converged or is converging, went forward, and lies on the
+/// first rise of the chord.
+bool stands(const Curve& curve, const Stand& from, const NewtonEnd& end,
+            const ChordSettings& settings) {
+  const double chord = settings.chord;
+  const double off = std::abs(end.residual);
+  const bool converged =
+      off < settings.tolerance * chord || off <= kConverged * chord + 4.0 * kEpsilon * end.speed;
+  const bool converging =
+      end.updates < kUpdatesToConverge && off <= end.previous && off <= kMostResidual * chord;
+  if (!(converged || converging) || !is_ahead(from.at, end.at)) return false;
+  if (at_end(curve, end.at) && end.residual > kConverged * chord) return false;
+  return chord_surely_grows(curve, from, end.at, end.speed) ||
+         chord_sign_changes(curve, from.at, from.point.position, end.at, chord) <= 1;
+}
+
+/// (P8) to (P10) for a step that begins and ends in one span. Not taken if an iterate leaves it.
+template <int kDegree, bool kRational>
+bool take_local_step(const Curve& curve, const Stand& from, const ChordSettings& settings,
+                     ChordStep& step) {
+  const LocalChord<kDegree, kRational> local(curve.coefficients(from.at.span), from.at.t);
+  const double speed = std::sqrt(from.speed_squared);
+  if (speed <= curve.spans()[from.at.span].rest) return false;
+  double s = settings.chord / from.speed_squared * speed;  // (P9)
+  NewtonEnd end{from.at, 0.0, std::numeric_limits<double>::infinity(), speed, 0};
+  for (;; ++end.updates) {
+    end.at.t = from.at.t + s;
+    if (!(s > 0.0 && end.at.t < 1.0)) return false;
+    const auto value = local.at(s, settings.chord);
+    end.residual = settings.chord - value.length;
+    if (end.updates == settings.max_iterations ||
+        std::abs(end.residual) < settings.tolerance * settings.chord) {
+      break;
+    }
+    if (!(value.growth > 0.0)) return false;
+    end.previous = std::abs(end.residual);
+    s += value.update;  // (P8)
+  }
+  if (!stands(curve, from, end, settings)) return false;
+  // Member by member: a copy as a whole waits for its parts (see run() in interpolate.cpp).
+  const LocalPoint point = curve.local(end.at);
+  step.to.at.span = end.at.span;
+  step.to.at.t = end.at.t;
+  step.to.point.position.v = point.position.v;
+  step.to.point.first.v = point.first.v;
+  step.to.speed_squared = kRational ? dot(point.first, point.first) : local.speed_squared(s);
+  step.evaluations = end.updates + 1;
+  return true;
+}
+
+bool take_local_step(const Curve& curve, const Stand& from, const ChordSettings& settings,
+                     ChordStep& step) {
+  const bool rational = curve.spans()[from.at.span].rational;
+  const auto take = [&]<int kDegree>() {
+    return rational ? take_local_step<kDegree, true>(curve, from, settings, step)
+                    : take_local_step<kDegree, false>(curve, from, settings, step);
+  };
+  switch (curve.degree()) {
+    case 1:
+      return take.template operator()<1>();
+    case 2:
+      return take.template operator()<2>();
+    case 3:
+      return take.template operator()<3>();
+    case 4:
+      return take.template operator()<4>();
+    case 5:
+      return take.template operator()<5>();
+    default:
+      return false;  // Q costs degree^2: from here on the curve itself is cheaper
+  }
+}
+
+/// (P8) and (P9) on the curve itself, across spans.
+ChordStep newton_step_across_spans(const Curve& curve, const Stand& from,
+                                   const ChordSettings& settings) {
+  const double chord = settings.chord;
+  const double speed = std::sqrt(from.speed_squared);
+  const double start = chord / from.speed_squared * speed;  // (P9)
+  if (speed <= curve.spans()[from.at.span].rest || !std::isfinite(start)) {
+    return search_step(curve, from, chord, 0);
+  }
+  ChordStep step;
+  ChordFrame frame(curve, from);
+  Cursor at{from.at.span, from.at.t + start};
+  NewtonEnd end{at, 0.0, std::numeric_limits<double>::infinity(), speed, 0};
+  for (;; ++end.updates) {
+    at = curve.settle(at);
+    step.to = stand_at(curve, at);
+    ++step.evaluations;
+    const Lanes reach = frame.chord_to(at, step.to.point);
+    const double length = std::sqrt(dot(reach, reach));
+    end.residual = chord - length;
+    if (end.updates == settings.max_iterations ||
+        std::abs(end.residual) < settings.tolerance * chord) {
+      break;
+    }
+    const double growth = dot(reach, step.to.point.first);
+    const bool beyond = end.residual > 0.0 && at_end(curve, at);
+    if (!(growth > 0.0) || beyond) return search_step(curve, from, chord, step.evaluations);
+    end.previous = std::abs(end.residual);
+    at.t += end.residual * length / growth;  // (P8)
+  }
+  end.at = at;
+  if (stands(curve, from, end, settings)) return step;
+  return search_step(curve, from, chord, step.evaluations);
+}
+
 }  // namespace
 
 double chord_length(const Curve& curve, const Stand& from, const Stand& to) {
@@ -75,48 +193,9 @@ double chord_length(const Curve& curve, const Stand& from, const Stand& to) {
 }
 
 ChordStep newton_step(const Curve& curve, const Stand& from, const ChordSettings& settings) {
-  const double chord = settings.chord;
-  const double speed_squared = dot(from.point.first, from.point.first);
-  const double speed = std::sqrt(speed_squared);
-  const double start = chord * speed / speed_squared;  // (P9)
-  if (speed <= curve.spans()[from.at.span].rest || !std::isfinite(start)) {
-    return search_step(curve, from, chord, 0);
-  }
-
   ChordStep step;
-  ChordFrame frame(curve, from);
-  Cursor at{from.at.span, from.at.t + start};
-  double residual = 0.0;
-  double previous = std::numeric_limits<double>::infinity();
-  int updates = 0;
-  for (;; ++updates) {
-    at = curve.settle(at);
-    step.to = {at, curve.local(at)};
-    ++step.evaluations;
-    const Lanes reach = frame.chord_to(at, step.to.point);
-    const double length = std::sqrt(dot(reach, reach));
-    residual = chord - length;
-    if (updates == settings.max_iterations || std::abs(residual) < settings.tolerance * chord) {
-      break;
-    }
-    const double growth = dot(reach, step.to.point.first);
-    const bool beyond = residual > 0.0 && at_end(curve, at);
-    if (!(growth > 0.0) || beyond) return search_step(curve, from, chord, step.evaluations);
-    previous = std::abs(residual);
-    at.t += residual * length / growth;  // (P8)
-  }
-
-  const double off = std::abs(residual);
-  const bool converged =
-      off <= settings.tolerance * chord || off <= kConverged * chord + 4.0 * kEpsilon * speed;
-  const bool converging =
-      updates < kUpdatesToConverge && off <= previous && off <= kMostResidual * chord;
-  if ((converged || converging) && is_ahead(from.at, at) &&
-      !(at_end(curve, at) && residual > kConverged * chord)) {
-    if (chord_surely_grows(curve, from, at, speed)) return step;
-    if (chord_sign_changes(curve, from.at, from.point.position, at, chord) <= 1) return step;
-  }
-  return search_step(curve, from, chord, step.evaluations);
+  if (take_local_step(curve, from, settings, step)) return step;
+  return newton_step_across_spans(curve, from, settings);
 }
 
 ChordStep first_root_step(const Curve& curve, const Stand& from, double chord) {
@@ -124,7 +203,7 @@ ChordStep first_root_step(const Curve& curve, const Stand& from, double chord) {
   const RootBracket root = first_chord_root(curve, from.at, from.point.position, chord);
   if (!root.found) {
     const Cursor end{curve.spans().size() - 1, 1.0};
-    step.to = {end, curve.local(end)};
+    step.to = stand_at(curve, end);
     step.ended = true;
     step.evaluations = 1;
     return step;
@@ -139,7 +218,7 @@ ChordStep first_root_step(const Curve& curve, const Stand& from, double chord) {
   double t = 0.5 * (low + high);
   for (int i = 0; i < kMostBracketSteps; ++i) {
     const Cursor at{root.span, t};
-    const Stand here{at, curve.local(at)};
+    const Stand here = stand_at(curve, at);
     ++step.evaluations;
     const Lanes reach = frame.chord_to(at, here.point);
     const double length = std::sqrt(dot(reach, reach));

@@ -11,7 +11,13 @@ namespace millstudy::path {
 struct Stand {
   Cursor at;
   LocalPoint point;
+  double speed_squared = 0.0;  ///< |dR/dt|^2 [mm^2]
 };
+
+inline Stand stand_at(const Curve& curve, Cursor at) {
+  const LocalPoint point = curve.local(at);
+  return {at, point, dot(point.first, point.first)};
+}
 
 /// One interpolation step.
 struct ChordStep {

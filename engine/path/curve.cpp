@@ -21,17 +21,11 @@ void refuse_faults(const CurveData& data) {
   if (!found.empty()) throw core::InputError(std::move(found));
 }
 
-bool has_unequal_weights(const CurveData& data) {
-  return std::any_of(data.weights.begin(), data.weights.end(),
-                     [&](double w) { return w != data.weights.front(); });
-}
-
 }  // namespace
 
 Curve::Curve(const CurveData& data) {
   refuse_faults(data);
   degree_ = data.degree;
-  rational_ = has_unequal_weights(data);
   double size = 0.0;
   for (const Vec3& p : data.points) size = std::max(size, norm(p - data.points.front()));
   for (const Piece& piece : make_pieces(data)) {
@@ -46,6 +40,9 @@ Curve::Curve(const CurveData& data) {
     double reach = kLeastReach * size;  // a span whose points are all equal still has rounding
     for (const Lanes& b : piece.bezier) reach = std::max(reach, norm(b.xyz()) / b.w());
     span.rest = kRounding * degree_ * reach;
+    span.rational = std::any_of(piece.power.begin() + 1, piece.power.end(),
+                                [](const Lanes& c) { return c.w() != 0.0; });
+    rational_ = rational_ || span.rational;
     span.coefficients = coefficients_.size();
     coefficients_.insert(coefficients_.end(), piece.power.begin(), piece.power.end());
     bezier_.insert(bezier_.end(), piece.bezier.begin(), piece.bezier.end());
@@ -85,7 +82,7 @@ Vec3 Curve::local_second(Cursor at, const LocalPoint& point) const {
     value = value * at.t + c[i];
   }
   second = second * 2.0;
-  if (!rational_) return second.xyz();
+  if (!spans_[at.span].rational) return second.xyz();
   // (P2), second derivative of the quotient
   return (1.0 / value.w()) *
          (second.xyz() - 2.0 * slope.w() * point.first.xyz() - second.w() * point.position.xyz());

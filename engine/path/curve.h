@@ -23,6 +23,7 @@ struct Span {
   double bend = 0.0;             ///< upper bound of |d2R/dt2| on the piece [mm]
   double rest = 0.0;             ///< |dR/dt| below this is rounding: the curve rests [mm]
   double kink = 0.0;             ///< |jump of dR/du| at begin [mm]
+  bool rational = false;         ///< the weights differ on the piece
   std::size_t coefficients = 0;  ///< index of the first of degree + 1
 };
 
@@ -97,10 +98,16 @@ class Curve {
     return at;
   }
 
+  /// Homogeneous power form of a span in t, ascending, shape (degree + 1).
+  const Lanes* coefficients(std::size_t span) const {
+    return &coefficients_[spans_[span].coefficients];
+  }
+
   double parameter(Cursor at) const { return spans_[at.span].middle + spans_[at.span].half * at.t; }
 
   LocalPoint local(Cursor at) const {
-    return evaluate_local(&coefficients_[spans_[at.span].coefficients], degree_, rational_, at.t);
+    const Span& span = spans_[at.span];
+    return evaluate_local(&coefficients_[span.coefficients], degree_, span.rational, at.t);
   }
   /// d2R/dt2 at a point that local() gave [mm].
   Vec3 local_second(Cursor at, const LocalPoint& point) const;

@@ -145,6 +145,12 @@ void add_pieces(const Points& bezier, double begin, double end, const Vec3& orig
   pieces.push_back(std::move(piece));
 }
 
+/// Equal weights come out of the recursions as 1 to rounding; exactly 1 spares the division.
+void remove_rounding_of_weights(Piece& piece) {
+  for (Lanes& b : piece.bezier) b.v[3] = 1.0;
+  for (std::size_t i = 0; i < piece.power.size(); ++i) piece.power[i].v[3] = i == 0 ? 1.0 : 0.0;
+}
+
 }  // namespace
 
 std::vector<Piece> make_pieces(const CurveData& data) {
@@ -168,7 +174,11 @@ std::vector<Piece> make_pieces(const CurveData& data) {
     }
     Points bezier(p + 1);
     for (int j = 0; j <= p; ++j) bezier[j] = polar_form(data, k, control, j);
+    const bool polynomial =
+        std::all_of(control.begin(), control.end(), [](const Point& c) { return c[3] == 1.0L; });
+    const std::size_t first = pieces.size();
     add_pieces(bezier, data.knots[k], data.knots[k + 1], origin, 0, pieces);
+    if (polynomial) remove_rounding_of_weights(pieces[first]);
   }
   return pieces;
 }

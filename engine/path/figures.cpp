@@ -119,7 +119,7 @@ PathFigures path_figures(const Curve& curve, const Interpolation& path) {
   for (const double u : path.parameters) {
     const Cursor at = curve.locate(u, span);
     span = at.span;
-    stands.push_back({at, curve.local(at)});
+    stands.push_back(stand_at(curve, at));
   }
   double sum = 0.0;
   for (std::int64_t i = 0; i < path.full_steps; ++i) {

@@ -22,7 +22,7 @@ ChordStep step_by(const Curve& curve, const Stand& from, double dt, double chord
   if (!(dt > 0.0) || !std::isfinite(dt)) return first_root_step(curve, from, chord);
   ChordStep step;
   const Cursor at = curve.settle({from.at.span, from.at.t + dt});
-  step.to = {at, curve.local(at)};
+  step.to = stand_at(curve, at);
   step.evaluations = 1;
   step.ended = at_end(curve, at) && chord_length(curve, from, step.to) < (1.0 - kSameChord) * chord;
   return step;

@@ -53,30 +53,41 @@ void basis_functions(const CurveData& data, int k, double u, int order, Basis& d
     ndu[j][j] = saved;
   }
   for (int j = 0; j <= p; ++j) ders[0][j] = ndu[j][p];
-  if (order >= 1) {
-    for (int r = 0; r <= p; ++r) {
+  std::array<std::array<double, kMost>, 2> a;
+  for (int r = 0; r <= p; ++r) {
+    int s1 = 0;
+    int s2 = 1;
+    a[0][0] = 1.0;
+    for (int m = 1; m <= order; ++m) {
+      const int rk = r - m;
+      const int pk = p - m;
       double d = 0.0;
-      if (r >= 1) d += ndu[r - 1][p - 1] / ndu[p][r - 1];
-      if (r <= p - 1) d -= ndu[r][p - 1] / ndu[p][r];
-      ders[1][r] = p * d;
+      if (pk < 0) {  // the book stops at the degree; beyond it derivatives are zero
+        ders[m][r] = 0.0;
+        continue;
+      }
+      if (r >= m) {
+        a[s2][0] = a[s1][0] / ndu[pk + 1][rk];
+        d = a[s2][0] * ndu[rk][pk];
+      }
+      const int j1 = rk >= -1 ? 1 : -rk;
+      const int j2 = r - 1 <= pk ? m - 1 : p - r;
+      for (int j = j1; j <= j2; ++j) {
+        a[s2][j] = (a[s1][j] - a[s1][j - 1]) / ndu[pk + 1][rk + j];
+        d += a[s2][j] * ndu[rk + j][pk];
+      }
+      if (r <= pk) {
+        a[s2][m] = -a[s1][m - 1] / ndu[pk + 1][r];
+        d += a[s2][m] * ndu[r][pk];
+      }
+      ders[m][r] = d;
+      std::swap(s1, s2);
     }
   }
-  if (order >= 2) {
-    for (int r = 0; r <= p; ++r) {
-      double d = 0.0;
-      if (p >= 2) {
-        // N''_(r) = p (p-1) [ (a - b) / (..) ] written out over the functions of degree p - 2.
-        const auto lower = [&](int i) {  // (first derivative of degree p - 1) / (p - 1)
-          double value = 0.0;
-          if (i >= 1) value += ndu[i - 1][p - 2] / ndu[p - 1][i - 1];
-          if (i <= p - 2) value -= ndu[i][p - 2] / ndu[p - 1][i];
-          return value;
-        };
-        if (r >= 1) d += lower(r - 1) / ndu[p][r - 1];
-        if (r <= p - 1) d -= lower(r) / ndu[p][r];
-      }
-      ders[2][r] = p * (p - 1) * d;
-    }
+  int factor = p;
+  for (int m = 1; m <= order; ++m) {
+    for (int j = 0; j <= p; ++j) ders[m][j] *= factor;
+    factor *= p - m;
   }
 }
 
