@@ -12,7 +12,8 @@ namespace millstudy::path {
 /// cubics with the slopes du/ds = 1/|R'|, limited to three secants so that u never runs back
 /// (Fritsch and Carlson 1980); where |R'| = 0 the limit is the slope.
 ///
-/// Measured on Table 1 of the paper with 1000 intervals: u within 1e-9 of the true one.
+/// Measured on Table 1 of the paper with 1000 intervals: chords within 2e-7 of those of a table of
+/// a million.
 class ArcLengthTable {
  public:
   /// @param intervals  >= 1

@@ -66,7 +66,8 @@ inline LocalPoint evaluate_local(const Lanes* coefficients, int degree, bool rat
 /// difference of large numbers.
 ///
 /// Accuracy, measured against ReferenceCurve on 2000 random curves (degree 1 to 7, repeated knots,
-/// weights 1e-3 to 1e3): position within 1e-13 of the size of the control polygon.
+/// weights 1e-3 to 1e3): position within 4e-14 of the size of the control polygon, R'
+/// and R'' within 3e-13 of their own.
 class Curve {
  public:
   /// @throws core::InputError  with every fault of the data, see faults()

@@ -127,7 +127,7 @@ class PathWriter {
 /// Steps until the end; take_step(stand) gives the next one.
 ///
 /// Two steps lie side by side and each is made in its place. Copying one would read as a whole
-/// what was just written in parts, and wait for it: 30 ns of the 50 that a step takes.
+/// what was just written in parts, and wait for it: 93 for 57 ns a step.
 template <class TakeStep>
 Interpolation run(PathWriter& path, const TakeStep& take_step) {
   std::array<ChordStep, 2> steps;
