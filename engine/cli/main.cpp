@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/process_setup.h"
 #include "cli/version.h"
 #include "core/error.h"
 #include "io/resource_error.h"
@@ -120,10 +121,15 @@ int main(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? cli::kDone : cli::kBadInput;
   }
-  return guarded([&] {
+  cli::open_standard_streams();
+  cli::report_full_disk_as_error();
+  const int code = guarded([&] {
     if (*plan) return cli::plan(study);
     if (*run) return cli::run(study, settings);
     if (*exporting) return cli::export_result(table);
     return cli::print_keys(kind, markdown);
   });
+  if (std::fflush(stdout) == 0) return code;
+  std::fputs("standard output cannot be written: disk full?\n", stderr);
+  return cli::kInterrupted;
 }

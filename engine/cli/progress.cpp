@@ -36,7 +36,12 @@ ProgressDisplay::ProgressDisplay(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), next_(terminal_ ? 0.5 : 2.0) {}
 
 ProgressDisplay::~ProgressDisplay() {
-  if (drawn_) std::fputs("\r\033[K", stderr);  // leave the terminal clean for the summary
+  clear();
+}
+
+void ProgressDisplay::clear() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+  drawn_ = false;
 }
 
 void ProgressDisplay::show(const sweep::Progress& progress) {

@@ -24,6 +24,8 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void show(const sweep::Progress& progress);
+  /// Takes the bar off the terminal, for what is printed next.
+  void clear();
 
  private:
   bool quiet_;

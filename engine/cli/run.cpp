@@ -173,16 +173,17 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   sweep::Layout layout = study::layout(open.study);
   layout.attributes = provenance(open, options, threads);
+  const std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
   FailureTally sink(io::make_result_writer(path, layout));
 
   ProgressDisplay display(settings.quiet);
-  const std::atomic<bool>& stop = stop_on_signal();
   const sweep::Progress progress =
       sweep::run_blocks(layout, study::block_evaluator(open.study, &stop), sink,
                         {.threads = threads,
                          .block_size = settings.block_size,
                          .stop = &stop,
                          .progress = [&](const sweep::Progress& now) { display.show(now); }});
+  display.clear();
   if (progress.done() < progress.points) {
     fmt::print(stderr, "interrupted after {} of {} points: nothing was kept\n",
                count_text(progress.done()), count_text(progress.points));

@@ -2,6 +2,7 @@
 #include "cli/stop_signal.h"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace millstudy::cli {
 namespace {
@@ -19,8 +20,12 @@ const std::atomic<bool>& stop_on_signal() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present = {};
+    sigaction(number, nullptr, &present);
+    // What is ignored stays ignored: SIGHUP under nohup, SIGINT of a job in the background.
+    if (present.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+  }
   return stop;
 }
 

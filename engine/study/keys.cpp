@@ -54,7 +54,7 @@ std::span<const Key> path_keys() {
       {"path.max_iterations", kInteger, "", {1.0, 100.0}, 2.0,
        "updates N per step: at most (newton, predictor_corrector)",
        MILLSTUDY_SETS(path.interpolation.max_iterations)},
-      {"path.tolerance_percent", kNumber, "%", {0.0, 100.0}, 0.0,
+      {"path.tolerance_percent", kNumber, "%", {0.0, 100.0, false, true}, 0.0,
        "tolerance: feed fluctuation at which the updates of a step end",
        MILLSTUDY_SETS(path.interpolation.tolerance)},
       {"path.steps", kInteger, "", {1.0, 1e7}, 1000.0,

@@ -52,7 +52,6 @@ class Resolver {
     make_base();
     study_.kind->check(given_, study_.base, faults_);
     check_limits();
-    check_traces();
     check_name();
     faults_.throw_if_any();
     study_.canonical = canonical();
@@ -325,13 +324,6 @@ class Resolver {
           fmt::format("sweep.where: quantity = \"{}\" is not given in this study{}", key->path,
                       computed ? fmt::format(": use {}, which is computed", key->name()) : ""));
     }
-  }
-
-  void check_traces() {
-    if (!study_.traces || study_.kind->has_traces) return;
-    faults_.add(
-        given_.place({"output.traces"}),
-        fmt::format("output.traces = true: kind {} has no time histories", study_.kind->name));
   }
 
   void make_base() {
