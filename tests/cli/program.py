@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ.get("MILLSTUDY", "millstudy")
+SLOW = float(os.environ.get("MILLSTUDY_SLOW", "1"))  # how much slower than a release build
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 SLOT = """\
@@ -64,7 +65,7 @@ class ProgramTest(unittest.TestCase):
     def millstudy(self, *arguments, code=0, timeout=60):
         """Runs the program in the working folder; the exit code must be as said."""
         done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
-                              capture_output=True, timeout=timeout)
+                              capture_output=True, timeout=SLOW * timeout)
         self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
         return done
 

@@ -6,10 +6,10 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, SLOT, SOURCE, ProgramTest
+from program import PROGRAM, SLOT, SLOW, SOURCE, ProgramTest
 
 BROKEN = SOURCE / "tests" / "cli" / "broken"
-LONGEST = float(os.environ.get("MILLSTUDY_SLOW", "1")) * 5.0  # [s]
+LONGEST = 5.0 * SLOW  # [s]
 
 
 def announced(path):

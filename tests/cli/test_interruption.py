@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, SLOT, ProgramTest
+from program import PROGRAM, SLOT, SLOW, ProgramTest
 
 AXES = """\
 [sweep.axes]
@@ -35,7 +35,7 @@ class Interruption(ProgramTest):
 
     def interrupt(self, process, number=signal.SIGINT):
         process.send_signal(number)
-        out, err = process.communicate(timeout=10)
+        out, err = process.communicate(timeout=10 * SLOW)
         self.assertEqual(process.returncode, 4, err)
         self.assertEqual(out, "")
         return err.splitlines()
