@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <functional>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -14,6 +15,19 @@
 #include "core/error.h"
 #include "io/toml_depth.h"
 
+namespace {
+/// Thrown where toml++ 3.3 takes for granted what some text does not hold: a header in umlauts, or
+/// "[1.0, }".
+struct UnexpectedCharacter {};
+constexpr void take_for_granted(bool held) {
+  if (!held) throw UnexpectedCharacter{};
+}
+}  // namespace
+
+// toml++ asserts such things, which would abort; with NDEBUG it even tells the compiler that they
+// hold, and the behaviour is undefined.
+#undef NDEBUG
+#define TOML_ASSERT(expr) take_for_granted(static_cast<bool>(expr))
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
@@ -140,6 +154,39 @@ class Converter {
   std::vector<core::Fault> faults_;
 };
 
+/// True if toml++ cannot go on and has no error for it.
+bool stumbles(std::string_view text) {
+  try {
+    const toml::parse_result parsed = toml::parse(text);
+    return false;
+  } catch (const UnexpectedCharacter&) {
+    return true;
+  }
+}
+
+/// The line where toml++ stumbles, by halving: it reads from the start, so every text that is cut
+/// after this line makes it stumble, and none that is cut before.
+int line_of_stumble(std::string_view text) {
+  std::vector<std::size_t> ends;  // of the lines
+  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1)) {
+    ends.push_back(at);
+  }
+  const auto stumbles_at = [&](std::size_t end) { return stumbles(text.substr(0, end)); };
+  return static_cast<int>(std::ranges::partition_point(ends, std::not_fn(stumbles_at)) -
+                          ends.begin()) +
+         1;
+}
+
+toml::parse_result parse_or_refuse(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text);
+  } catch (const UnexpectedCharacter&) {
+    throw InputError({{Place{name, line_of_stumble(text)},
+                       "a character that cannot stand there; names of keys are letters a to z, "
+                       "digits, _ and -"}});
+  }
+}
+
 }  // namespace
 
 Value read_toml(const std::string& path) {
@@ -153,7 +200,7 @@ Value parse_toml(std::string_view text, const std::string& name) {
     throw InputError(
         {{Place{name, *line}, fmt::format("a dotted key of more than {} parts", kMostKeyParts)}});
   }
-  const toml::parse_result parsed = toml::parse(text);
+  const toml::parse_result parsed = parse_or_refuse(text, name);
   if (!parsed) {
     const toml::parse_error& error = parsed.error();
     const auto line = static_cast<int>(error.source().begin.line);

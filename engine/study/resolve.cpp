@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fmt/format.h>
 #include <set>
 
+#include "study/canonical_text.h"
 #include "study/curve_file.h"
 #include "study/quantity.h"
+#include "study/section_file.h"
 #include "study/study.h"
 #include "study/suggest.h"
 #include "study/sweep_section.h"
 
 namespace millstudy::study {
 namespace {
-
-/// Words for people in a file that stands for a section.
-constexpr std::array<std::string_view, 5> kFileText = {"name", "source", "units", "licence",
-                                                       "description"};
-
-bool is_file_text(std::string_view key) {
-  return std::find(kFileText.begin(), kFileText.end(), key) != kFileText.end();
-}
 
 std::string missing(const Key& key) {
   const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
@@ -31,7 +24,9 @@ std::string missing(const Key& key) {
 class Resolver {
  public:
   Resolver(const core::Value& root, const FileLoader& load)
-      : tree_(root), load_(load), folder_(std::filesystem::path(root.place.file).parent_path()) {
+      : tree_(root),
+        load_([&load, folder = std::filesystem::path(root.place.file).parent_path()](
+                  const std::string& name) { return load((folder / name).string()); }) {
     given_.file = {root.place.file, 0};
   }
 
@@ -41,7 +36,7 @@ class Resolver {
     lift_file_key("coefficients_file", "coefficients");
     read_table(tree_, "");
     const FileSettings read_file = [this](const Key& key, const core::Value& path) {
-      return settings_of_file(key, path);
+      return settings_of_file(key, path, *study_.kind, load_);
     };
     if (const core::Value* sweep = tree_.find("sweep")) {
       read_sweep(*sweep, read_file, study_, given_, faults_);
@@ -54,7 +49,7 @@ class Resolver {
     check_limits();
     check_name();
     faults_.throw_if_any();
-    study_.canonical = canonical();
+    study_.canonical = canonical_text(study_, settings_, given_);
     return std::move(study_);
   }
 
@@ -178,7 +173,7 @@ class Resolver {
     given_.entries[key.path] = {&key, value.place, false};
     const bool fine = faults_.collect([&] {
       if (key.type == KeyType::file) {
-        for (Assignment& assignment : settings_of_file(key, value))
+        for (Assignment& assignment : settings_of_file(key, value, *study_.kind, load_))
           keep(std::move(assignment), value);
       } else {
         settings_.insert_or_assign(key.path, checked_setting(key, value));
@@ -203,56 +198,6 @@ class Resolver {
     }
     given_.entries[key->path] = {key, value.place, false};
     faults_.collect([&] { settings_.insert_or_assign(key->path, read_curve(value)); });
-  }
-
-  /// The settings that a file stands for: one curve, or the keys of a section.
-  std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value) const {
-    const Setting path = checked_setting(key, value);
-    const core::Value content = load_named(key, std::get<std::string>(path), value.place);
-    if (key.field) return {{&key, read_curve(content)}};
-    const std::string section(key.path.substr(0, key.path.find('.')));
-    std::vector<Assignment> assignments;
-    Faults faults;
-    for (const auto& [name, member] : content.table()) {
-      const Key* inner = study_.kind->find_key(section + '.' + name);
-      if (inner && inner->field) {
-        faults.collect([&] { assignments.push_back({inner, checked_setting(*inner, member)}); });
-      } else if (!is_file_text(name)) {
-        faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
-                                             suggestion(name, names_in_file(section))));
-      }
-    }
-    faults.throw_if_any();
-    return assignments;
-  }
-
-  /// What a file that stands for a section may give: the keys of the section, without the section.
-  std::vector<std::string_view> names_in_file(std::string_view section) const {
-    std::vector<std::string_view> names;
-    for (const std::string_view path : known_) {
-      const Key* key = study_.kind->find_key(path);
-      if (key->field && path.substr(0, path.find('.')) == section) names.push_back(key->name());
-    }
-    return names;
-  }
-
-  core::Value load_named(const Key& key, const std::string& name, const core::Place& place) const {
-    try {
-      core::Value content = load_((folder_ / name).string());
-      if (content.find("study")) {
-        throw core::InputError(
-            {{content.place, fmt::format("is a study, not a {} file",
-                                         key.name().substr(0, key.name().rfind('_')))}});
-      }
-      return content;
-    } catch (const core::InputError& error) {
-      std::vector<core::Fault> faults = error.faults();
-      for (core::Fault& fault : faults) {
-        if (fault.place.line == 0)
-          fault = {place, fmt::format("{}: {}", key.path, to_string(fault))};
-      }
-      throw core::InputError(std::move(faults));
-    }
   }
 
   void find_missing() {
@@ -358,50 +303,14 @@ class Resolver {
                             name));
   }
 
-  std::string canonical() const {
-    std::string text =
-        fmt::format("millstudy study 1\nkind {}\ntraces {}\n", study_.kind->name, study_.traces);
-    std::map<std::string_view, std::string> lines;
-    for (const auto& [path, setting] : settings_) {
-      const Key* key = study_.kind->find_key(path);
-      if (key->field && !given_.swept(path)) lines[path] = canonical_text(setting);
-    }
-    for (const auto& [path, line] : lines) text += fmt::format("{} = {}\n", path, line);
-    if (study_.axes.empty()) return text;
-    text += study_.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";
-    for (const Axis& axis : study_.axes) {
-      text += fmt::format("axis {} = {}", axis.path, fmt::join(axis.numbers, " "));
-      for (std::size_t i = 0; i < axis.labels.size(); ++i) {
-        text += fmt::format(" [{}", axis.labels[i]);
-        for (const Assignment& assignment : axis.settings[i]) {
-          text += fmt::format(" {} = {}", assignment.key->path, canonical_text(assignment.setting));
-        }
-        text += ']';
-      }
-      text += '\n';
-    }
-    for (const Limit& limit : study_.limits) {
-      text += fmt::format("where {} {} {}\n", limit.quantity,
-                          limit.min ? fmt::format("{}", *limit.min) : "-",
-                          limit.max ? fmt::format("{}", *limit.max) : "-");
-    }
-    return text;
-  }
-
-  static std::string canonical_text(const Setting& setting) {
-    const CurvePtr* curve = std::get_if<CurvePtr>(&setting);
-    return curve ? (*curve)->canonical : to_string(setting);
-  }
-
   core::Value tree_;
-  const FileLoader& load_;
-  std::filesystem::path folder_;
+  FileLoader load_;  // by a name relative to the folder of the study
   Faults faults_;
   Given given_;
   Study study_;
   std::vector<std::string_view> known_;
   std::vector<std::string_view> reported_;  // keys and sections whose fault is known
-  std::map<std::string_view, Setting> settings_;
+  SettingMap settings_;
 };
 
 }  // namespace

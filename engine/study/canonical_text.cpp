@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "study/canonical_text.h"
+
+#include <fmt/format.h>
+
+namespace millstudy::study {
+namespace {
+
+std::string text_of(const Setting& setting) {
+  const CurvePtr* curve = std::get_if<CurvePtr>(&setting);
+  return curve ? (*curve)->canonical : to_string(setting);
+}
+
+std::string text_of(const Axis& axis) {
+  std::string text = fmt::format("axis {} = {}", axis.path, fmt::join(axis.numbers, " "));
+  for (std::size_t i = 0; i < axis.labels.size(); ++i) {
+    text += fmt::format(" [{}", axis.labels[i]);
+    for (const Assignment& assignment : axis.settings[i]) {
+      text += fmt::format(" {} = {}", assignment.key->path, text_of(assignment.setting));
+    }
+    text += ']';
+  }
+  return text;
+}
+
+std::string text_of(const Limit& limit) {
+  const auto bound = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "-";
+  };
+  return fmt::format("where {} {} {}", limit.quantity, bound(limit.min), bound(limit.max));
+}
+
+}  // namespace
+
+std::string canonical_text(const Study& study, const SettingMap& settings, const Given& given) {
+  std::string text =
+      fmt::format("millstudy study 1\nkind {}\ntraces {}\n", study.kind->name, study.traces);
+  for (const auto& [path, setting] : settings) {
+    const Key* key = study.kind->find_key(path);
+    if (key->field && !given.swept(path)) text += fmt::format("{} = {}\n", path, text_of(setting));
+  }
+  if (study.axes.empty()) return text;
+  text += study.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";
+  for (const Axis& axis : study.axes) text += text_of(axis) + '\n';
+  for (const Limit& limit : study.limits) text += text_of(limit) + '\n';
+  return text;
+}
+
+}  // namespace millstudy::study

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "study/section_file.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "study/curve_file.h"
+#include "study/suggest.h"
+
+namespace millstudy::study {
+namespace {
+
+/// Words for people in a file that stands for a section.
+constexpr std::array<std::string_view, 5> kFileText = {"name", "source", "units", "licence",
+                                                       "description"};
+
+bool is_file_text(std::string_view key) {
+  return std::find(kFileText.begin(), kFileText.end(), key) != kFileText.end();
+}
+
+core::Value load_named(const Key& key, const std::string& name, const core::Place& place,
+                       const FileLoader& load) {
+  try {
+    core::Value content = load(name);
+    if (content.find("study")) {
+      throw core::InputError(
+          {{content.place, fmt::format("is a study, not a {} file",
+                                       key.name().substr(0, key.name().rfind('_')))}});
+    }
+    return content;
+  } catch (const core::InputError& error) {
+    std::vector<core::Fault> faults = error.faults();
+    for (core::Fault& fault : faults) {
+      if (fault.place.line == 0) fault = {place, fmt::format("{}: {}", key.path, to_string(fault))};
+    }
+    throw core::InputError(std::move(faults));
+  }
+}
+
+/// What a file that stands for a section may give: the keys of the section, without the section.
+std::vector<std::string_view> names_in_file(std::string_view section, const Kind& kind) {
+  std::vector<std::string_view> names;
+  for (const std::string_view path : key_paths(kind)) {
+    const Key* key = kind.find_key(path);
+    if (key->field && path.substr(0, path.find('.')) == section) names.push_back(key->name());
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value, const Kind& kind,
+                                         const FileLoader& load) {
+  const Setting path = checked_setting(key, value);
+  const core::Value content = load_named(key, std::get<std::string>(path), value.place, load);
+  if (key.field) return {{&key, read_curve(content)}};
+  const std::string section(key.path.substr(0, key.path.find('.')));
+  std::vector<Assignment> assignments;
+  Faults faults;
+  for (const auto& [name, member] : content.table()) {
+    const Key* inner = kind.find_key(section + '.' + name);
+    if (inner && inner->field) {
+      faults.collect([&] { assignments.push_back({inner, checked_setting(*inner, member)}); });
+    } else if (!is_file_text(name)) {
+      faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
+                                           suggestion(name, names_in_file(section, kind))));
+    }
+  }
+  faults.throw_if_any();
+  return assignments;
+}
+
+}  // namespace millstudy::study
