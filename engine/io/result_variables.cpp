@@ -14,7 +14,6 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr std::int64_t kChunkElements = 1 << 16;
 constexpr int kGzip = 1;  // measured: higher levels buy nothing on results
 
 struct Description {

@@ -9,6 +9,9 @@
 
 namespace millstudy::io {
 
+/// Values in a chunk of a variable, at most.
+inline constexpr std::int64_t kChunkElements = 1 << 16;
+
 /// Time histories of all points, one after another: CF contiguous ragged arrays.
 struct TraceVariables {
   ChunkStream<std::int64_t> start;

@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/toml_depth.h"
+#include "io/toml_scan.h"
 
 namespace {
-/// Thrown where toml++ 3.3 takes for granted what some text does not hold: a header in umlauts, or
-/// "[1.0, }".
+/// Thrown where toml++ 3.3 takes for granted what some text does not hold: "[1.0, }".
 struct UnexpectedCharacter {};
 constexpr void take_for_granted(bool held) {
   if (!held) throw UnexpectedCharacter{};
@@ -196,9 +195,8 @@ Value read_toml(const std::string& path) {
 Value parse_toml(std::string_view text, const std::string& name) {
   if (text.size() > kLargestFile) refuse(name, "is larger than 8 MiB");
   check_encoding(text, name);
-  if (const auto line = find_deep_key(text, kMostKeyParts)) {
-    throw InputError(
-        {{Place{name, *line}, fmt::format("a dotted key of more than {} parts", kMostKeyParts)}});
+  if (const auto stumble = find_stumble(text, kMostKeyParts)) {
+    throw InputError({{Place{name, stumble->line}, stumble->why}});
   }
   const toml::parse_result parsed = parse_or_refuse(text, name);
   if (!parsed) {

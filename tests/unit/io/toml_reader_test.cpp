@@ -149,6 +149,18 @@ TEST(Toml, TakesDotsThatAreNotOfKeys) {
   EXPECT_EQ(refusal("a = [\n" + repeat("1.0,\n", 1000) + "]"), "accepted");
 }
 
+TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
+  for (const std::string text : {"[öl]\n", "[a.ö]\n", "öl = 1\n", "a = ö\n", "a = [1,\u00a02]\n",
+                                 "a = 1 ö\n", "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n",
+                                 "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n", "a = 1\ufeff\n"}) {
+    EXPECT_EQ(refusal("\n" + text).substr(0, 7), "s.toml:") << text;
+  }
+  EXPECT_EQ(refusal("\n\n[öl]\n"),
+            "s.toml:3: ö cannot stand there: names of keys are letters a to z, digits, _ and -; "
+            "texts go in \"quotes\"");
+  EXPECT_EQ(refusal("a = 'ö' # ö\n# ö\n\"ö\" = \'\'\'\nö\'\'\'\nb = \"\"\"ö\"\"\"\n"), "accepted");
+}
+
 TEST(Toml, RefusesWhatIsNoReadableFile) {
   const std::string folder = testing::TempDir() + "/toml_reader";
   std::filesystem::create_directories(folder);
