@@ -4,6 +4,9 @@
 namespace millstudy::cutter {
 
 /// Envelope of the cutting edges. Above the ball the tool is a cylinder.
+///
+/// What a shape changes is decided in envelope.cpp and in add_edge() of room force, by switches
+/// without default: the compiler names the places that a new shape has to fill in.
 enum class Shape { flat, ball };
 
 /// An end mill whose flutes are equal and equally spaced.

@@ -20,23 +20,59 @@ double ball_kappa(const Cutter& cutter, double z) {
 
 EnvelopePoint envelope(const Cutter& cutter, double z) {
   const double lag_angle = lag_rate(cutter) * z;
-  if (z >= curved_height(cutter)) return {radius(cutter), 0.5 * core::kPi, lag_angle};
-  return {std::sqrt(z * (cutter.diameter - z)), ball_kappa(cutter, z), lag_angle};
+  const EnvelopePoint cylinder = {radius(cutter), 0.5 * core::kPi, lag_angle};
+  if (z >= curved_height(cutter)) return cylinder;
+  switch (cutter.shape) {
+    case Shape::flat:
+      return cylinder;
+    case Shape::ball:
+      return {std::sqrt(z * (cutter.diameter - z)), ball_kappa(cutter, z), lag_angle};
+  }
+  __builtin_unreachable();
 }
 
 double curved_height(const Cutter& cutter) {
-  return cutter.shape == Shape::ball ? radius(cutter) : 0.0;
+  switch (cutter.shape) {
+    case Shape::flat:
+      return 0.0;
+    case Shape::ball:
+      return radius(cutter);
+  }
+  __builtin_unreachable();
 }
 
 double edge_length_rate(const Cutter& cutter) {
-  return cutter.shape == Shape::flat ? 1.0 : 1.0 / std::cos(cutter.helix_angle);
+  switch (cutter.shape) {
+    case Shape::flat:
+      return 1.0;
+    case Shape::ball:
+      return 1.0 / std::cos(cutter.helix_angle);
+  }
+  __builtin_unreachable();
+}
+
+double curved_edge_per_width(const Cutter& cutter, double sin_kappa) {
+  switch (cutter.shape) {
+    case Shape::flat:
+      return 1.0;  // it has no curved part
+    case Shape::ball:
+      return ball_edge_per_width(std::tan(cutter.helix_angle), sin_kappa);
+  }
+  __builtin_unreachable();
 }
 
 double section_area(const Cutter& cutter, double depth) {
   const double r = radius(cutter);
-  const double curved = std::min(depth, curved_height(cutter));
-  const double kappa = curved > 0.0 ? ball_kappa(cutter, curved) : 0.0;
-  return r * (depth - curved) + 0.5 * r * r * (kappa - 0.5 * std::sin(2.0 * kappa));
+  switch (cutter.shape) {
+    case Shape::flat:
+      return r * depth;
+    case Shape::ball: {
+      const double curved = std::min(depth, r);
+      const double kappa = ball_kappa(cutter, curved);
+      return r * (depth - curved) + 0.5 * r * r * (kappa - 0.5 * std::sin(2.0 * kappa));
+    }
+  }
+  __builtin_unreachable();
 }
 
 double largest_sin_kappa(const Cutter& cutter, double depth) {

@@ -28,8 +28,7 @@ inline Disc disc_at(const cutter::Cutter& cutter, double axial_depth, int n, int
     const double length = height * cutter::edge_length_rate(cutter);
     return {height, length, 1.0, 0.0, point.radius, point.lag_angle};
   }
-  const double bend = std::tan(cutter.helix_angle) * sin_kappa * sin_kappa;
-  const double length = height * std::sqrt(1.0 + bend * bend) / sin_kappa;
+  const double length = height * cutter::curved_edge_per_width(cutter, sin_kappa) / sin_kappa;
   return {height, length, sin_kappa, std::cos(point.kappa), point.radius, point.lag_angle};
 }
 

@@ -49,7 +49,8 @@ class CylinderEdge {
   HarmonicBasis whole_;    ///< the edge all in cut, in the angle of the tip
 };
 
-/// The ball's edge from the tip to a height, as Chebyshev series (F14).
+/// The curved edge from the tip to a height, as Chebyshev series (F14). They are series in the root
+/// of the height, which is the ball's: other shapes have to be smooth in it too.
 class CurvedEdge {
  public:
   /// @param top  [mm], 0 < top <= R

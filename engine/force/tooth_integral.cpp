@@ -43,8 +43,8 @@ void add_ball(ForceBasis& basis, const cutter::Cutter& cutter, double tip_angle,
               double kappa2) {
   const double radius = cutter::radius(cutter);
   const double rate = cutter::lag_rate(cutter);
-  const double slope = std::abs(std::tan(cutter.helix_angle));
-  const double span = (kappa2 - kappa1) * (1.0 + slope);
+  const double slope = std::tan(cutter.helix_angle);
+  const double span = (kappa2 - kappa1) * (1.0 + std::abs(slope));
   const int panels = 1 + static_cast<int>(span / 3.0);
   const core::GaussRule& rule = core::gauss_legendre(8 + static_cast<int>(4.0 * span / panels));
   const double half = 0.5 * (kappa2 - kappa1) / panels;
@@ -58,11 +58,24 @@ void add_ball(ForceBasis& basis, const cutter::Cutter& cutter, double tip_angle,
       const double phi = tip_angle - rate * z;
       const double sin_phi = std::sin(phi);
       const double step = half * rule.weights[i] * radius;  // R dkappa = db
-      const double bend = slope * sin_kappa * sin_kappa;
       const Matrix43<double> axes =
           edge_axes(sin_phi, std::cos(phi), sin_kappa, cos_kappa, radius * sin_kappa);
-      add_slice(basis, axes, sin_phi * sin_kappa * step, std::sqrt(1.0 + bend * bend) * step);
+      add_slice(basis, axes, sin_phi * sin_kappa * step,
+                cutter::ball_edge_per_width(slope, sin_kappa) * step);  // (C12)
     }
+  }
+}
+
+/// The edge over heights below curved_height().
+void add_curved(ForceBasis& basis, const cutter::Cutter& cutter, double tip_angle, double z1,
+                double z2) {
+  switch (cutter.shape) {
+    case cutter::Shape::flat:
+      return;  // it has no curved part
+    case cutter::Shape::ball:
+      add_ball(basis, cutter, tip_angle, cutter::envelope(cutter, z1).kappa,
+               cutter::envelope(cutter, z2).kappa);
+      return;
   }
 }
 
@@ -83,11 +96,7 @@ double angle_past_first_limit(const cutter::Cutter& cutter, const Engagement& en
 void add_edge(ForceBasis& basis, const cutter::Cutter& cutter, double tip_angle, double z1,
               double z2) {
   const double top = cutter::curved_height(cutter);
-  if (z1 < top) {
-    const double kappa1 = cutter::envelope(cutter, z1).kappa;
-    const double kappa2 = cutter::envelope(cutter, std::min(z2, top)).kappa;
-    add_ball(basis, cutter, tip_angle, kappa1, kappa2);
-  }
+  if (z1 < top) add_curved(basis, cutter, tip_angle, z1, std::min(z2, top));
   if (z2 > top) add_cylinder(basis, cutter, tip_angle, std::max(z1, top), z2);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cutter/envelope.h"
 
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -64,6 +65,25 @@ TEST(LargestSinKappa, GrowsToOneAtTheEquator) {
 TEST(EdgeLengthRate, ContinuesTheArcLengthOfTheBall) {
   EXPECT_EQ(edge_length_rate(kFlat), 1.0);
   EXPECT_DOUBLE_EQ(edge_length_rate(kBall), std::hypot(1.0, std::tan(kBall.helix_angle)));
+}
+
+TEST(BallEdgePerWidth, IsTheArcLengthOfTheEdgeInSpace) {
+  // (C1) at spindle angle 0, differenced over a short piece; db = R dkappa.
+  const auto edge = [](double kappa) {
+    const EnvelopePoint point = envelope(kBall, 6.0 * (1.0 - std::cos(kappa)));
+    return std::array{point.radius * std::sin(point.lag_angle),
+                      point.radius * std::cos(point.lag_angle), 6.0 * (1.0 - std::cos(kappa))};
+  };
+  constexpr double kStep = 1e-4;
+  for (const double kappa : {0.1, 0.5, 1.0, 1.5}) {
+    const auto low = edge(kappa - kStep);
+    const auto high = edge(kappa + kStep);
+    const double length = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    const double rate = curved_edge_per_width(kBall, std::sin(kappa));
+    EXPECT_NEAR(rate, length / (6.0 * 2.0 * kStep), 1e-8);
+    EXPECT_EQ(rate, ball_edge_per_width(std::tan(-kBall.helix_angle), std::sin(kappa)));
+  }
+  EXPECT_DOUBLE_EQ(curved_edge_per_width(kBall, 1.0), edge_length_rate(kBall));
 }
 
 TEST(Cutter, OutOfRangeIsRefusedByName) {
