@@ -53,12 +53,14 @@ void check(const cutter::Cutter& cutter, const Engagement& engagement) {
     throw core::InputError("axial_depth = " + std::to_string(engagement.axial_depth) +
                            " mm must be > 0 and finite");
   }
-  const double turns =
-      std::abs(cutter::lag_rate(cutter)) * engagement.axial_depth / (2.0 * core::kPi);
-  if (!(turns <= kMostTurns)) {
+  if (!(engagement.axial_depth <= largest_axial_depth(cutter))) {
     throw core::InputError("axial_depth = " + std::to_string(engagement.axial_depth) +
                            " mm must not exceed 1000 turns of the helix");
   }
+}
+
+double largest_axial_depth(const cutter::Cutter& cutter) {
+  return kMostTurns * 2.0 * core::kPi / std::abs(cutter::lag_rate(cutter));
 }
 
 void check(const EdgeRule& edge_rule) {

@@ -24,9 +24,13 @@ Engagement up_milling(double radius, double radial_depth, double axial_depth);
 /// Down-milling: pi - acos(1 - ae/R) to pi. Parameters as for up_milling.
 Engagement down_milling(double radius, double radial_depth, double axial_depth);
 
-/// Throws core::InputError for what is out of range: the angles, the depth, and a depth of more
-/// than a thousand turns of the helix.
+/// Throws core::InputError for what is out of range: the angles, the depth, and a depth above
+/// largest_axial_depth().
 void check(const cutter::Cutter& cutter, const Engagement& engagement);
+
+/// The depth of a thousand turns of the helix [mm], the most that check() lets pass; infinite
+/// without helix.
+double largest_axial_depth(const cutter::Cutter& cutter);
 
 /// How the cutting edge is integrated.
 enum class Rule {

@@ -56,10 +56,23 @@ TEST(Engagement, OutOfRangeIsRefusedByNameValueUnitAndLimit) {
   EXPECT_NE(of(slot(0.0)).find("axial_depth = 0.000000 mm must be > 0"), std::string::npos);
   EXPECT_NE(of(slot(kNaN)).find("axial_depth"), std::string::npos);
   EXPECT_NE(of(slot(1e9)).find("1000 turns"), std::string::npos);
+  EXPECT_NEAR(largest_axial_depth(cutter), 1000.0 * core::kPi * 12.0, 1e-9);
+  EXPECT_EQ(of(slot(largest_axial_depth(cutter))), "");
+  EXPECT_NE(of(slot(std::nextafter(largest_axial_depth(cutter), 1e9))).find("1000 turns"),
+            std::string::npos);
   EXPECT_NE(message([] { up_milling(6.0, 12.1, 1.0); }).find("radial_depth = 12.1"),
             std::string::npos);
   EXPECT_NE(message([] { down_milling(6.0, 0.0, 1.0); }).find("must be > 0"), std::string::npos);
   EXPECT_NE(message([] { check(EdgeRule{Rule::discs, 0}); }).find("discs = 0"), std::string::npos);
+}
+
+TEST(LargestAxialDepth, IsInfiniteWithoutHelixAndTheSameForBothHands) {
+  const auto of = [](double helix_angle) {
+    return largest_axial_depth({cutter::Shape::ball, 12.0, 2, helix_angle});
+  };
+  EXPECT_EQ(of(0.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(of(-0.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(of(-0.5), of(0.5));
 }
 
 }  // namespace
