@@ -2,6 +2,7 @@
 #include "process/machine_along.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/error.h"
@@ -32,6 +33,7 @@ std::int64_t first_sample_of_period(std::int64_t i, double samples_per_period) {
 
 PathForces machine_along(const path::Interpolation& path, const force::ForceSampler& sampler,
                          const Machining& machining, const SampleObserver& observer) {
+  assert(sampler.angular_steps() == machining.angular_steps);
   check_planar(path);
   const auto periods = static_cast<std::int64_t>(path.points.size()) - 1;
   const double samples_per_period =
