@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/toml_hint.h"
 #include "io/toml_scan.h"
 
 namespace {
@@ -202,7 +203,7 @@ Value parse_toml(std::string_view text, const std::string& name) {
   if (!parsed) {
     const toml::parse_error& error = parsed.error();
     const auto line = static_cast<int>(error.source().begin.line);
-    throw InputError({{Place{name, line}, std::string(error.description())}});
+    throw InputError({{Place{name, line}, hint(text, line, error.description())}});
   }
   Converter converter(name);
   Value root = converter.convert(parsed.table(), 0);
