@@ -1,71 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/measure.h"
 #include "cli/open_study.h"
 #include "cli/progress.h"
 #include "core/ordered_parallel.h"
+#include "io/result_size.h"
 
 namespace millstudy::cli {
 namespace {
 
-struct Estimate {
-  double seconds_per_point = 0.0;  ///< on one thread
-  double trace_samples_per_point = 0.0;
-  double skipped_part = 0.0;
-  std::int64_t measured_points = 0;
-};
-
-/// Times blocks spread evenly over the study, for about two seconds on one thread.
-Estimate measure(const study::Study& study, const sweep::Layout& layout) {
-  constexpr double kBudget = 2.0;  // [s]
-  constexpr std::int64_t kMostBlocks = 16;
-  const sweep::EvaluateBlock evaluate = study::block_evaluator(study);
-  const std::int64_t size = sweep::default_block_size(layout);
-  const std::int64_t blocks = (layout.points() + size - 1) / size;
-  const std::int64_t tried = std::min(blocks, kMostBlocks);
-  Estimate estimate;
-  double samples = 0.0;
-  std::int64_t skipped = 0;
-  const auto start = std::chrono::steady_clock::now();
-  double seconds = 0.0;
-  for (std::int64_t i = 0; i < tried && seconds < kBudget; ++i) {
-    const std::int64_t first = (2 * i + 1) * blocks / (2 * tried) * size;
-    sweep::Block block(first, std::min(size, layout.points() - first), layout.columns.size(),
-                       layout.traces);
-    evaluate(block);
-    estimate.measured_points += block.count;
-    skipped += std::count(block.status.begin(), block.status.end(), sweep::Status::skipped);
-    for (const sweep::Trace& trace : block.traces)
-      samples += static_cast<double>(trace.time.size());
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  const auto measured = static_cast<double>(estimate.measured_points);
-  estimate.seconds_per_point = seconds / measured;
-  estimate.trace_samples_per_point = samples / measured;
-  estimate.skipped_part = static_cast<double>(skipped) / measured;
-  return estimate;
-}
-
-double result_bytes(const sweep::Layout& layout, const Estimate& estimate) {
-  constexpr double kBytesOfStatus = 1.0 + 4.0;  // int8 and int32
-  constexpr double kBytesOfSample = 5.0 * 4.0;
-  const double per_point = 8.0 * static_cast<double>(layout.columns.size()) + kBytesOfStatus +
-                           kBytesOfSample * estimate.trace_samples_per_point;
-  return per_point * static_cast<double>(layout.points());
-}
-
 /// One chunk a column in the writer, and the blocks in flight.
 double memory_bytes(const sweep::Layout& layout, const Estimate& estimate, int threads) {
-  constexpr double kProgram = 30e6;
-  constexpr double kChunk = 2.0 * 512.0 * 1024.0;
+  constexpr double kProgram = 12e6;
+  constexpr double kChunk = 8.0 * 65536.0;  // at most one a column is held back
   const double per_point =
       8.0 * static_cast<double>(layout.columns.size()) + 20.0 * estimate.trace_samples_per_point;
-  return kProgram + kChunk * static_cast<double>(layout.columns.size()) +
-         4.0 * threads * static_cast<double>(sweep::default_block_size(layout)) * per_point;
+  const double chunk = std::min(kChunk, 8.0 * static_cast<double>(layout.points()));
+  return kProgram + chunk * static_cast<double>(layout.columns.size()) +
+         4.0 * threads *
+             static_cast<double>(sweep::default_block_size(layout, estimate.seconds_per_point)) *
+             per_point;
 }
 
 std::string axis_text(const study::Axis& axis) {
@@ -85,7 +43,9 @@ int plan(const StudyOptions& options) {
   const Estimate estimate = measure(open.study, layout);
   const double seconds =
       estimate.seconds_per_point * static_cast<double>(layout.points()) / threads;
-  const double bytes = result_bytes(layout, estimate);
+  const double samples = estimate.trace_samples_per_point * static_cast<double>(layout.points());
+  const double bytes =
+      io::largest_result_bytes(layout, samples) + static_cast<double>(open.text.size());
   const double memory = memory_bytes(layout, estimate, threads);
   if (options.json) {
     nlohmann::json json = {{"name", open.study.name},

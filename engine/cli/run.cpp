@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli/commands.h"
+#include "cli/measure.h"
 #include "cli/open_study.h"
 #include "cli/progress.h"
 #include "cli/stop_signal.h"
@@ -90,6 +91,7 @@ struct Outcome {
   double seconds = 0.0;
   std::int64_t threads = 0;
   std::string hash;
+  std::string computed;  ///< of a result that was there: by which program, and when
 };
 
 int print_outcome(const Outcome& outcome, const StudyOptions& options,
@@ -108,6 +110,10 @@ int print_outcome(const Outcome& outcome, const StudyOptions& options,
     for (const auto& [reason, count] : failures) {
       fmt::print("  {} failed: {}\n", count_text(count), reason);
     }
+    if (points > 0 && outcome.skipped == points) {
+      fmt::print("  every point is outside the limits of sweep.where\n");
+    }
+    if (!outcome.computed.empty()) fmt::print("{}\n", outcome.computed);
     const double rate = static_cast<double>(points) / std::max(outcome.seconds, 1e-6);
     fmt::print("time:   {} on {} thread{}, {} points/s\n", duration_text(outcome.seconds),
                outcome.threads, outcome.threads == 1 ? "" : "s",
@@ -130,7 +136,7 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
           "holds the result of another study; use --fresh to compute this one (the old "
           "result is moved aside), or -o for another file"}});
   }
-  Outcome outcome{"already done", path, 0, 0, 0, 0.0, 0, open.hash};
+  Outcome outcome{"already done", path, 0, 0, 0, 0.0, 0, open.hash, ""};
   outcome.ok = summary->integer("points_ok").value_or(0);
   outcome.failed = summary->integer("points_failed").value_or(0);
   outcome.skipped = summary->integer("points_skipped").value_or(0);
@@ -139,6 +145,14 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
   if (time != summary->attributes.end() && std::holds_alternative<double>(time->second)) {
     outcome.seconds = std::get<double>(time->second);
   }
+  const Build made = build();
+  const std::string revision = summary->text("git_revision").value_or("unknown");
+  outcome.computed = fmt::format(
+      "computed by millstudy {} ({}) on {}{}", summary->text("millstudy_version").value_or("?"),
+      revision, summary->text("created").value_or("?"),
+      revision == made.git_revision
+          ? ""
+          : "; this program is " + made.git_revision + ", --fresh computes again");
   return outcome;
 }
 
@@ -176,11 +190,17 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   const std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
   FailureTally sink(io::make_result_writer(path, layout));
 
+  const sweep::EvaluateBlock evaluate = study::block_evaluator(open.study, &stop);
+  std::int64_t block_size = settings.block_size;
+  if (block_size == 0 && sweep::default_block_size(layout) > 1) {
+    const Estimate one = measure_blocks(evaluate, layout, 1, 1, 0.0);
+    block_size = sweep::default_block_size(layout, one.seconds_per_point);
+  }
   ProgressDisplay display(settings.quiet);
   const sweep::Progress progress =
-      sweep::run_blocks(layout, study::block_evaluator(open.study, &stop), sink,
+      sweep::run_blocks(layout, evaluate, sink,
                         {.threads = threads,
-                         .block_size = settings.block_size,
+                         .block_size = block_size,
                          .stop = &stop,
                          .progress = [&](const sweep::Progress& now) { display.show(now); }});
   display.clear();
@@ -195,7 +215,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
                {"points_skipped", progress.skipped},
                {"wall_time_s", progress.seconds}});
   return print_outcome({"done", path, progress.ok, progress.failed, progress.skipped,
-                        progress.seconds, threads, open.hash},
+                        progress.seconds, threads, open.hash, ""},
                        options, sink.counts());
 }
 

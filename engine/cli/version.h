@@ -16,7 +16,7 @@ struct Build {
 
 Build build();
 
-/// "millstudy 0.1.0 (2ed5dbe, dirty)"
+/// "millstudy 0.1.0 (2ed5dbe)", with "changed" if the tree was
 std::string version_text();
 
 }  // namespace millstudy::cli

@@ -23,7 +23,7 @@ struct Fault {
   std::string text;
 };
 
-/// "place: text", one line: control characters are escaped and the length is bounded.
+/// "place: text", one line: control characters are replaced and the length is bounded.
 std::string to_string(const Fault& fault);
 
 /// Bad input: carries every fault found, never only the first. The program prints one line per

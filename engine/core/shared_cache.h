@@ -14,11 +14,16 @@ namespace millstudy::core {
 /// A bounded memo of expensive values, shared between threads: the same key gives the same value,
 /// computed again only if it was dropped meanwhile. What is in the cache never changes a result.
 ///
+/// What it holds is bounded by the sum of the values' costs (1 each unless a cost is given).
 /// Two threads that miss the same key at once both compute; neither waits for the other.
 template <class T>
 class SharedCache {
  public:
-  explicit SharedCache(std::size_t capacity) : capacity_(capacity) {}
+  using Cost = std::size_t (*)(const T&);
+
+  explicit SharedCache(
+      std::size_t capacity, Cost cost = [](const T&) { return std::size_t{1}; })
+      : capacity_(capacity), cost_(cost) {}
 
   /// The value for the key; make() is called outside the lock on a miss.
   template <class Make>
@@ -43,14 +48,19 @@ class SharedCache {
   void insert(const std::string& key, std::shared_ptr<const T> value) {
     const std::lock_guard lock(mutex_);
     if (index_.contains(key)) return;
+    held_ += cost_(*value);
     entries_.emplace_front(key, std::move(value));
     index_.emplace(key, entries_.begin());
-    if (entries_.size() <= capacity_) return;
-    index_.erase(entries_.back().first);
-    entries_.pop_back();
+    while (held_ > capacity_) {
+      held_ -= cost_(*entries_.back().second);
+      index_.erase(entries_.back().first);
+      entries_.pop_back();
+    }
   }
 
   std::size_t capacity_;
+  Cost cost_;
+  std::size_t held_ = 0;
   std::mutex mutex_;
   std::list<Entry> entries_;  // most recently used first
   std::unordered_map<std::string, typename std::list<Entry>::iterator> index_;

@@ -3,8 +3,8 @@
 
 /// Conversions between the native units of the engine (mm, s, rad, N) and the units of files.
 ///
-/// Inside the engine every plain double is native; only the edges (study keys, result columns)
-/// call these.
+/// Inside the engine every plain double is native; only the edges call these. Keys of studies have
+/// their units in the table of study/key.h.
 namespace millstudy::core {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -15,21 +15,8 @@ constexpr double rad_from_deg(double deg) {
 constexpr double deg_from_rad(double rad) {
   return rad * (180.0 / kPi);
 }
-/// Spindle speed: revolutions per minute to revolutions per second.
-constexpr double rev_per_s_from_rpm(double rpm) {
-  return rpm / 60.0;
-}
-constexpr double mm_per_s_from_mm_per_min(double feed_rate) {
-  return feed_rate / 60.0;
-}
-constexpr double mm_per_min_from_mm_per_s(double feed_rate) {
-  return feed_rate * 60.0;
-}
 constexpr double mm_from_um(double um) {
   return um * 1e-3;
-}
-constexpr double um_from_mm(double mm) {
-  return mm * 1e3;
 }
 /// Torque: N mm to N m.
 constexpr double newton_metre(double newton_mm) {

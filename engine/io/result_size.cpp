@@ -40,20 +40,21 @@ double padded_points(const sweep::Layout& layout) {
 }  // namespace
 
 double largest_result_bytes(const sweep::Layout& layout, double trace_samples) {
-  constexpr double kFile = 40e3;     // superblock, root attributes, text heaps
-  constexpr double kVariable = 6e3;  // header, attributes, index of chunks
+  constexpr double kFile = 10e3;     // superblock, text heaps
   constexpr double kStatus = 1 + 4;  // int8 and int32
   constexpr double kTrace = 2 * 8;   // start and count
   constexpr double kSample = 5 * 4;  // float32
+  // Header, attributes and, of a chunked variable, the index of chunks.
+  const double variable = layout.shape.empty() ? 1e3 : 4e3;
   const auto columns = static_cast<double>(layout.columns.size());
   double bytes = kFile + attribute_bytes(layout);
   for (const sweep::Coordinate& coordinate : layout.coordinates) {
-    bytes += kVariable + coordinate_bytes(coordinate);
+    bytes += variable + coordinate_bytes(coordinate);
   }
-  bytes += kVariable * (columns + 2.0) + (8.0 * columns + kStatus) * padded_points(layout);
+  bytes += variable * (columns + 2.0) + (8.0 * columns + kStatus) * padded_points(layout);
   if (layout.traces) {
     const double padding = static_cast<double>(kChunkElements);
-    bytes += 7.0 * kVariable + kTrace * padded_points(layout) + kSample * (trace_samples + padding);
+    bytes += 7.0 * variable + kTrace * padded_points(layout) + kSample * (trace_samples + padding);
   }
   return bytes;
 }

@@ -2,6 +2,7 @@
 #include "study/canonical_text.h"
 
 #include <fmt/format.h>
+#include <set>
 
 namespace millstudy::study {
 namespace {
@@ -42,7 +43,9 @@ std::string canonical_text(const Study& study, const SettingMap& settings, const
   if (study.axes.empty()) return text;
   text += study.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";
   for (const Axis& axis : study.axes) text += text_of(axis) + '\n';
-  for (const Limit& limit : study.limits) text += text_of(limit) + '\n';
+  std::set<std::string> limits;  // their order does not count
+  for (const Limit& limit : study.limits) limits.insert(text_of(limit));
+  for (const std::string& limit : limits) text += limit + '\n';
   return text;
 }
 

@@ -21,6 +21,9 @@ double feed_per_tooth(const Case& point) {
 
 force::Engagement engagement(const Case& point) {
   const CutSection& cut = point.cut;
+  if (cut.axial_depth > force::largest_axial_depth(point.cutter)) {
+    throw core::CaseError("cut.axial_depth_mm must be <= 1000 turns of the helix");
+  }
   if (!cut.milling) {
     if (*cut.exit_angle <= *cut.entry_angle) {
       throw core::CaseError("cut.exit_deg must be > cut.entry_deg");
@@ -35,6 +38,12 @@ force::Engagement engagement(const Case& point) {
   return *cut.milling == Milling::up
              ? force::up_milling(radius, *cut.radial_depth, cut.axial_depth)
              : force::down_milling(radius, *cut.radial_depth, cut.axial_depth);
+}
+
+void check_feed(const Case& point) {
+  if (feed_per_tooth(point) <= cutter::radius(point.cutter)) return;
+  throw core::CaseError(
+      "feed per tooth must be <= the cutter's radius: check feed rate, spindle speed and flutes");
 }
 
 double cutting_speed(const Case& point) {

@@ -43,8 +43,8 @@ struct Case {
 double feed_rate(const Case& point);
 /// Feed per tooth [mm], from feed rate where that is given.
 double feed_per_tooth(const Case& point);
-/// Entry, exit and depth. @throws core::CaseError if the radial depth does not fit the cutter, or
-/// exit is not after entry.
+/// Entry, exit and depth. @throws core::CaseError if the depths do not fit the cutter, or exit is
+/// not after entry.
 force::Engagement engagement(const Case& point);
 /// Peripheral cutting speed [mm/s].
 double cutting_speed(const Case& point);
@@ -54,6 +54,11 @@ double radial_immersion(const Case& point);
 double disc_samples(const Case& point);
 /// Above this many a revolution takes seconds a tooth: refused.
 inline constexpr double kMostDiscSamples = 1e9;
+inline constexpr const char* kTooManyDiscs =
+    "numerics.discs x numerics.angular_steps must be <= 1e9 with rule discs";
+/// @throws core::CaseError if feed per tooth exceeds the cutter's radius: no chip is like that, the
+/// spindle speed or the feed rate is mistaken
+void check_feed(const Case& point);
 /// Volume removed per time [mm3/s]: feed rate times the cross-section of the engaged envelope.
 double material_removal_rate(const Case& point);
 

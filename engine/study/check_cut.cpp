@@ -7,7 +7,7 @@
 namespace millstudy::study {
 namespace {
 
-void check_feed(const Given& given, Faults& faults) {
+void check_feed_keys(const Given& given, Faults& faults) {
   const bool rate = given.has("cut.feed_rate_mm_per_min");
   const bool tooth = given.has("cut.feed_per_tooth_mm");
   if (rate && tooth) {
@@ -33,6 +33,8 @@ void check_engagement_keys(const Given& given, const Case& base, Faults& faults)
         faults.add(given.place({"cut.milling"}),
                    "cut.radial_depth_mm [mm] is missing: up and down milling need it");
       }
+    } else if (!base.cut.milling) {
+      return;  // its value is at fault: which keys it takes is not known
     } else if (base.cut.milling == Milling::slot && radial) {
       faults.add(given.place({"cut.radial_depth_mm"}),
                  "cut.radial_depth_mm contradicts cut.milling = \"slot\": leave it out");
@@ -51,32 +53,40 @@ void check_engagement_keys(const Given& given, const Case& base, Faults& faults)
 
 }  // namespace
 
+void check_cut_keys(const Given& given, const Case& base, Faults& faults) {
+  check_feed_keys(given, faults);
+  check_engagement_keys(given, base, faults);
+}
+
 void check_cut(const Given& given, const Case& base, Faults& faults) {
-  check_feed(given, faults);
-  Faults keys;
-  check_engagement_keys(given, base, keys);
-  const bool fine = faults.collect([&] { keys.throw_if_any(); });
-  if (!fine || given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg",
-                                "cut.exit_deg", "cutter.diameter_mm", "cutter.cutter_file"})) {
-    return;
-  }
-  try {
-    engagement(base);
-  } catch (const core::CaseError& error) {
-    std::string text = error.what();
-    if (base.cut.radial_depth) {
-      text += fmt::format(" ({} > {} mm)", *base.cut.radial_depth, base.cutter.diameter);
+  if (!given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg", "cut.exit_deg",
+                        "cutter.diameter_mm", "cutter.helix_deg", "cut.axial_depth_mm"})) {
+    try {
+      engagement(base);
+    } catch (const core::CaseError& error) {
+      std::string text = error.what();
+      if (base.cut.radial_depth > base.cutter.diameter) {
+        text += fmt::format(" ({} > {} mm)", *base.cut.radial_depth, base.cutter.diameter);
+      }
+      faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg", "cut.axial_depth_mm"}),
+                 std::move(text));
     }
-    faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg"}), std::move(text));
+  }
+  if (!given.any_swept({"cut.feed_rate_mm_per_min", "cut.feed_per_tooth_mm",
+                        "cut.spindle_speed_rpm", "cutter.diameter_mm", "cutter.flutes"})) {
+    try {
+      check_feed(base);
+    } catch (const core::CaseError& error) {
+      faults.add(given.place({"cut.feed_per_tooth_mm", "cut.feed_rate_mm_per_min"}),
+                 fmt::format("{} ({:.4g} mm)", error.what(), feed_per_tooth(base)));
+    }
   }
 }
 
 void check_numerics(const Given& given, const Case& base, Faults& faults) {
   if (given.any_swept({"numerics.rule", "numerics.discs", "numerics.angular_steps"})) return;
   if (disc_samples(base) <= kMostDiscSamples) return;
-  faults.add(
-      given.place({"numerics.discs", "numerics.angular_steps"}),
-      fmt::format("numerics.discs x numerics.angular_steps must be <= {:.0e}", kMostDiscSamples));
+  faults.add(given.place({"numerics.discs", "numerics.angular_steps"}), kTooManyDiscs);
 }
 
 }  // namespace millstudy::study

@@ -35,13 +35,26 @@ bool within(const Limit& limit, const Case& point) {
          (!limit.max || *value <= *limit.max + kRounding * std::abs(*limit.max));
 }
 
-/// Reason why the point has no result, or empty.
+/// Inside every limit. One whose quantity cannot be computed is passed: the point then fails with
+/// the reason, unless another limit leaves it out.
+bool within_all(const std::vector<Limit>& limits, const Case& point) {
+  return std::all_of(limits.begin(), limits.end(), [&](const Limit& limit) {
+    try {
+      return within(limit, point);
+    } catch (const core::CaseError&) {
+      return true;
+    }
+  });
+}
+
+/// Reason why the point has no result, or empty. Out of memory is no property of the point: it is
+/// passed on.
 std::string evaluate_point(const EvaluatePoint& evaluate, const Case& point, std::span<double> row,
                            sweep::Trace* trace) {
   try {
     evaluate(point, row, trace);
   } catch (const std::bad_alloc&) {
-    return "out of memory";
+    throw;
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -70,15 +83,7 @@ sweep::EvaluateBlock block_evaluator(const Study& study, const std::atomic<bool>
       if (stop && stop->load(std::memory_order_relaxed)) return;
       shared->space.indices(block.first + i, indices);
       apply_axes(*shared, indices, point);
-      const bool inside = [&] {
-        try {
-          return std::all_of(shared->limits.begin(), shared->limits.end(),
-                             [&](const Limit& limit) { return within(limit, point); });
-        } catch (const core::CaseError&) {
-          return true;  // the quantity cannot be computed: let the point fail with its reason
-        }
-      }();
-      if (!inside) {
+      if (!within_all(shared->limits, point)) {
         block.status[i] = Status::skipped;
         continue;
       }

@@ -30,7 +30,7 @@ std::string fallback(const Key& key) {
   if (const auto* text = std::get_if<std::string_view>(&key.fallback)) {
     return fmt::format("\"{}\"", *text);
   }
-  return "";
+  return key.type == KeyType::flag ? "false" : "";
 }
 
 }  // namespace

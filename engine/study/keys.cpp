@@ -13,7 +13,9 @@ constexpr auto kFlag = KeyType::flag;
 constexpr auto kFile = KeyType::file;
 
 /// From above 0.
-constexpr Range up_to(double high) { return {0.0, high, true, false}; }
+constexpr Range up_to(double high) {
+  return {0.0, high, true, false};
+}
 
 constexpr Range kCoefficient{-1e6, 1e6};
 
@@ -27,8 +29,8 @@ constexpr Range kCoefficient{-1e6, 1e6};
 std::span<const Key> general_keys() {
   static const std::vector<Key> keys = {
       {"schema_version", kInteger, "", {1.0, 1.0}, Required{}, "version of the study file: 1"},
-      {"study.name", kText, "", {}, Required{}, "names the result file: NAME.h5"},
-      {"study.kind", kText, "", {}, Required{}, "what is computed"},
+      {"study.name", kText, "", {}, Required{}, "names the result file, NAME.h5: letters, digits, _ - + and dots"},
+      {"study.kind", kText, "", {}, Required{}, "what is computed: path, force or path_force"},
       {"study.description", kText, "", {}, "", "the question, in a sentence"},
   };
   return keys;
@@ -60,7 +62,7 @@ std::span<const Key> path_keys() {
       {"path.steps", kInteger, "", {1.0, 1e7}, 1000.0,
        "parameter steps: of uniform_parameter", MILLSTUDY_SETS(path.interpolation.steps)},
       {"path.table_size", kInteger, "", {2.0, 1e6}, 1000.0,
-       "table size: entries of arc_length_table", MILLSTUDY_SETS(path.interpolation.table_size)},
+       "table size: intervals of arc_length_table", MILLSTUDY_SETS(path.interpolation.table_size)},
   };
   return keys;
 }

@@ -43,7 +43,9 @@ struct Kind {
   std::vector<std::span<const Key>> sections;
   std::vector<sweep::Column> columns;
   bool has_traces = false;
-  /// Rules between keys; those that involve a swept key are left to the points.
+  /// Rules on which keys go together; checked even where values are at fault (those are not set).
+  void (*check_keys)(const Given&, const Case& base, Faults&) = nullptr;
+  /// Rules between values; those that involve a swept key are left to the points.
   void (*check)(const Given&, const Case& base, Faults&) = nullptr;
   /// A fresh evaluator for one run; what points share is kept in it.
   EvaluatePoint (*make_evaluator)() = nullptr;
@@ -58,7 +60,9 @@ std::vector<std::string_view> key_paths(const Kind& kind);
 /// All kinds, in the order of the reference.
 std::span<const Kind* const> kinds();
 
-/// Rules of [cut], for the kinds that compute forces.
+/// Which keys of [cut] go together, for the kinds that compute forces.
+void check_cut_keys(const Given& given, const Case& base, Faults& faults);
+/// Rules between values of [cut].
 void check_cut(const Given& given, const Case& base, Faults& faults);
 /// Rules of [numerics].
 void check_numerics(const Given& given, const Case& base, Faults& faults);

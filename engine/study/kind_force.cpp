@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "core/units.h"
 #include "study/kinds.h"
 #include "study/rows.h"
 #include "study/shared_sampler.h"
@@ -12,23 +11,10 @@ void check(const Given& given, const Case& base, Faults& faults) {
   check_numerics(given, base, faults);
 }
 
-/// One revolution, time from the spindle speed.
-sweep::Trace revolution_trace(const Case& point, const force::ForceSamples& samples) {
-  sweep::Trace trace;
-  for (int s = 0; s < point.angular_steps; ++s) {
-    const double turn = static_cast<double>(s) / point.angular_steps;
-    trace.time.push_back(static_cast<float>(turn / point.cut.spindle_speed));
-    trace.angle.push_back(static_cast<float>(2.0 * core::kPi * turn));
-    trace.force_x.push_back(static_cast<float>(samples.x[s]));
-    trace.force_y.push_back(static_cast<float>(samples.y[s]));
-    trace.force_z.push_back(static_cast<float>(samples.z[s]));
-  }
-  return trace;
-}
-
 EvaluatePoint make_evaluator() {
   return
       [samplers = SharedSamplers()](const Case& point, std::span<double> row, sweep::Trace* trace) {
+        check_feed(point);
         const force::Engagement engaged = engagement(point);
         const auto sampler = samplers.get(point, engaged);
         force::ForceSamples samples;
@@ -39,7 +25,7 @@ EvaluatePoint make_evaluator() {
         fill_force_row(point, statistics.result(),
                        force::largest_chip_thickness(point.cutter, engaged, feed_per_tooth(point)),
                        row);
-        if (trace) *trace = revolution_trace(point, samples);
+        if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
       };
 }
 
@@ -53,6 +39,7 @@ const Kind& force_kind() {
                    output_keys()},
       .columns = force_columns(),
       .has_traces = true,
+      .check_keys = check_cut_keys,
       .check = check,
       .make_evaluator = make_evaluator,
   };

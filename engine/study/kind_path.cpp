@@ -5,7 +5,7 @@
 namespace millstudy::study {
 namespace {
 
-void check(const Given&, const Case&, Faults&) {}
+void no_rules(const Given&, const Case&, Faults&) {}
 
 EvaluatePoint make_evaluator() {
   return [](const Case& point, std::span<double> row, sweep::Trace*) {
@@ -22,7 +22,8 @@ const Kind& path_kind() {
       .sections = {general_keys(), path_keys(), path_feed_keys()},
       .columns = path_columns(),
       .has_traces = false,
-      .check = check,
+      .check_keys = no_rules,
+      .check = no_rules,
       .make_evaluator = make_evaluator,
   };
   return kind;

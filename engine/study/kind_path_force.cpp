@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "core/units.h"
 #include "process/machine_along.h"
 #include "study/kinds.h"
 #include "study/rows.h"
@@ -8,14 +7,19 @@
 namespace millstudy::study {
 namespace {
 
-constexpr std::size_t kMostPaths = 256;
+constexpr std::size_t kMostPathBytes = 256 << 20;
+constexpr const char* kClimbs =
+    "the path climbs out of the xy plane: kind path_force needs a constant z";
+
+std::size_t bytes_of(const MeasuredPath& path) {
+  return path.interpolation.points.size() * (sizeof(path::Vec3) + sizeof(double));
+}
 
 void check(const Given& given, const Case& base, Faults& faults) {
   check_cut(given, base, faults);
   check_numerics(given, base, faults);
   if (!given.swept("path.curve_file") && !base.path.curve->planar) {
-    faults.add(given.place({"path.curve_file"}),
-               "the path climbs out of the xy plane: kind path_force needs a constant z");
+    faults.add(given.place({"path.curve_file"}), kClimbs);
   }
 }
 
@@ -23,8 +27,9 @@ class PathForceEvaluator {
  public:
   void operator()(const Case& point, std::span<double> row, sweep::Trace* trace) const {
     if (!point.path.curve->planar) {
-      throw core::CaseError("the path climbs out of the xy plane");
+      throw core::CaseError(kClimbs);
     }
+    check_feed(point);
     const force::Engagement engaged = engagement(point);
     const auto path = shared_path(point);
     const auto sampler = samplers_.get(point, engaged);
@@ -40,28 +45,19 @@ class PathForceEvaluator {
  private:
   /// The path of a point, shared by all that differ only in cutter, speed and coefficients.
   std::shared_ptr<const MeasuredPath> shared_path(const Case& point) const {
-    const path::InterpolationSettings& s = point.path.interpolation;
-    const std::string key = share_key(point.path.curve.get(), feed_rate(point), s.method, s.period,
-                                      s.max_iterations, s.tolerance, s.steps, s.table_size);
+    const std::string key = share_key({path_keys()}, point, {feed_rate(point)});
     return paths_->get(key, [&] { return measured_path(point); });
   }
 
   static process::SampleObserver recorder(const Case& point, sweep::Trace& trace) {
     return [&point, &trace](std::int64_t first, std::int64_t count, const force::ForceSamples& f) {
-      for (std::int64_t i = 0; i < count; ++i) {
-        const double turn = static_cast<double>(first + i) / point.angular_steps;
-        trace.time.push_back(static_cast<float>(turn / point.cut.spindle_speed));
-        trace.angle.push_back(static_cast<float>(2.0 * core::kPi * turn));
-        trace.force_x.push_back(static_cast<float>(f.x[i]));
-        trace.force_y.push_back(static_cast<float>(f.y[i]));
-        trace.force_z.push_back(static_cast<float>(f.z[i]));
-      }
+      append_samples(point, first, count, f, trace);
     };
   }
 
   SharedSamplers samplers_;
   std::shared_ptr<core::SharedCache<MeasuredPath>> paths_ =
-      std::make_shared<core::SharedCache<MeasuredPath>>(kMostPaths);
+      std::make_shared<core::SharedCache<MeasuredPath>>(kMostPathBytes, bytes_of);
 };
 
 EvaluatePoint make_evaluator() {
@@ -85,6 +81,7 @@ const Kind& path_force_kind() {
                    numerics_keys(), output_keys()},
       .columns = columns(),
       .has_traces = true,
+      .check_keys = check_cut_keys,
       .check = check,
       .make_evaluator = make_evaluator,
   };

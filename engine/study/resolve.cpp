@@ -43,8 +43,9 @@ class Resolver {
       settle_file_axes();
     }
     find_missing();
-    faults_.throw_if_any();
     make_base();
+    check_keys();
+    faults_.throw_if_any();
     study_.kind->check(given_, study_.base, faults_);
     check_limits();
     check_name();
@@ -109,6 +110,14 @@ class Resolver {
     });
   }
 
+  /// The section as the key table spells it, which outlives this study's text.
+  std::string_view section_named(std::string_view path) const {
+    for (const std::string_view key : known_) {
+      if (key.starts_with(path)) return key.substr(0, path.size());
+    }
+    return {};
+  }
+
   void read_table(const core::Value& table, const std::string& prefix) {
     for (const auto& [name, value] : table.table()) {
       const std::string path = prefix.empty() ? name : prefix + '.' + name;
@@ -123,9 +132,7 @@ class Resolver {
         } else {
           faults_.add(value.place,
                       fmt::format("{} must be a table, not {}", path, type_name(value)));
-          for (const std::string_view known : known_) {
-            if (known.starts_with(path + '.')) reported_.push_back(known);
-          }
+          reported_.push_back(section_named(path));
         }
       } else {
         refuse_unknown(path, value);
@@ -173,14 +180,29 @@ class Resolver {
     given_.entries[key.path] = {&key, value.place, false};
     const bool fine = faults_.collect([&] {
       if (key.type == KeyType::file) {
-        for (Assignment& assignment : settings_of_file(key, value, *study_.kind, load_))
-          keep(std::move(assignment), value);
+        std::vector<Assignment> assignments = settings_of_file(key, value, *study_.kind, load_);
+        if (!sets_anything(assignments)) refuse_idle_file(key, value.place);
+        for (Assignment& assignment : assignments) keep(std::move(assignment), value);
       } else {
         settings_.insert_or_assign(key.path, checked_setting(key, value));
       }
     });
     if (!fine && key.type == KeyType::file)
       reported_.push_back(key.path.substr(0, key.path.find('.')));
+  }
+
+  /// False if the study itself gives every key of the file: then reading it would change nothing.
+  bool sets_anything(const std::vector<Assignment>& assignments) const {
+    return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& assignment) {
+      return assignment.key->type == KeyType::file || !is_own(*assignment.key);
+    });
+  }
+
+  [[noreturn]] static void refuse_idle_file(const Key& key, const core::Place& place) {
+    throw core::InputError(
+        {{place, fmt::format("{} changes nothing: the study itself gives every key "
+                             "of the file; leave one of them out",
+                             key.path)}});
   }
 
   /// What a file says yields to what the study says itself.
@@ -210,6 +232,18 @@ class Resolver {
     }
   }
 
+  /// Rules on keys; one that stands there under a wrong name counts as given, and a section that is
+  /// no section is judged by nothing.
+  void check_keys() {
+    Given meant = given_;
+    for (const std::string_view path : reported_) {
+      const Key* key = study_.kind->find_key(path);
+      if (!key) return;
+      meant.entries.try_emplace(key->path, Given::Entry{key, given_.file, false});
+    }
+    study_.kind->check_keys(meant, study_.base, faults_);
+  }
+
   /// A key under a wrong name, or in a file with faults, is not reported as missing too.
   bool is_reported(std::string_view path) const {
     return std::any_of(reported_.begin(), reported_.end(), [&](std::string_view meant) {
@@ -230,6 +264,11 @@ class Resolver {
       if (axis.key->type != KeyType::file || axis.key->field) continue;
       std::set<const Key*> all;
       for (std::vector<Assignment>& settings : axis.settings) {
+        if (!sets_anything(settings)) {
+          faults_.collect(
+              [&] { refuse_idle_file(*axis.key, given_.entries.at(axis.key->path).place); });
+          return;
+        }
         std::erase_if(settings, [&](const Assignment& assignment) {
           return is_own(*assignment.key) || has_axis(*assignment.key);
         });
@@ -283,10 +322,16 @@ class Resolver {
         if (setting != settings_.end() && key.field) apply(key, setting->second, study_.base);
       }
     }
-    study_.name = std::get<std::string>(settings_.at("study.name"));
-    study_.description = std::get<std::string>(settings_.at("study.description"));
+    study_.name = text_setting("study.name");
+    study_.description = text_setting("study.description");
     const auto traces = settings_.find("output.traces");
     study_.traces = traces != settings_.end() && std::get<bool>(traces->second);
+  }
+
+  /// Empty where the key is missing or at fault; that is reported elsewhere.
+  std::string text_setting(std::string_view path) const {
+    const auto setting = settings_.find(path);
+    return setting == settings_.end() ? "" : std::get<std::string>(setting->second);
   }
 
   void check_name() {

@@ -8,6 +8,7 @@
 #include "force/history.h"
 #include "path/figures.h"
 #include "study/case.h"
+#include "sweep/block.h"
 #include "sweep/layout.h"
 
 namespace millstudy::study {
@@ -29,12 +30,8 @@ struct MeasuredPath {
 };
 MeasuredPath measured_path(const Case& point);
 
-/// Bytes of values one after another: the key under which shared work is kept.
-template <class... Values>
-std::string share_key(const Values&... values) {
-  std::string key;
-  (key.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...);
-  return key;
-}
+/// Appends the samples first .. first + count - 1 of a history to a trace.
+void append_samples(const Case& point, std::int64_t first, std::int64_t count,
+                    const force::ForceSamples& samples, sweep::Trace& trace);
 
 }  // namespace millstudy::study

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/shared_cache.h"
 #include "force/sampler.h"
-#include "study/rows.h"
+#include "study/share_key.h"
 
 namespace millstudy::study {
 
@@ -17,12 +17,11 @@ class SharedSamplers {
   std::shared_ptr<const force::ForceSampler> get(const Case& point,
                                                  const force::Engagement& engaged) const {
     if (disc_samples(point) > kMostDiscSamples) {
-      throw core::CaseError("numerics.discs x numerics.angular_steps must be <= 1e+09");
+      throw core::CaseError(kTooManyDiscs);
     }
-    const std::string key = share_key(
-        point.cutter.shape, point.cutter.diameter, point.cutter.flutes, point.cutter.helix_angle,
-        engaged.entry_angle, engaged.exit_angle, engaged.axial_depth, point.edge_rule.rule,
-        point.edge_rule.discs, point.angular_steps);
+    const std::string key =
+        share_key({cutter_keys(), numerics_keys()}, point,
+                  {engaged.entry_angle, engaged.exit_angle, engaged.axial_depth});
     return cache_->get(key, [&] {
       return force::ForceSampler(point.cutter, engaged, point.edge_rule, point.angular_steps);
     });

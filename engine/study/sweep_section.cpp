@@ -253,7 +253,26 @@ class SweepReader {
         study_.kind->name, fmt::join(derived, ", "), suggestion(name, known));
   }
 
+  /// In a grid a value that comes twice is a slip (1,5 for 1.5, say), and no coordinate.
+  void check_repeats() {
+    for (const Axis& axis : study_.axes) {
+      const core::Place& place = given_.entries.at(axis.key->path).place;
+      std::vector<double> numbers = axis.numbers;
+      std::vector<std::string> labels = axis.labels;
+      std::sort(numbers.begin(), numbers.end());
+      std::sort(labels.begin(), labels.end());
+      const auto number = std::adjacent_find(numbers.begin(), numbers.end());
+      const auto label = std::adjacent_find(labels.begin(), labels.end());
+      if (number != numbers.end()) {
+        faults_.add(place, fmt::format("sweep.axes: {} has {} twice", axis.path, *number));
+      } else if (label != labels.end()) {
+        faults_.add(place, fmt::format("sweep.axes: {} has \"{}\" twice", axis.path, *label));
+      }
+    }
+  }
+
   void make_space(sweep::Design design, const core::Place& place) {
+    if (design == sweep::Design::grid) check_repeats();
     std::vector<std::int64_t> lengths;
     for (const Axis& axis : study_.axes) lengths.push_back(static_cast<std::int64_t>(axis.size()));
     try {

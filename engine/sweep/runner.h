@@ -33,7 +33,11 @@ using EvaluateBlock = std::function<void(Block&)>;
 
 /// Points per block: small enough to share evenly among the threads and, with traces, to hold in
 /// memory; large enough that scheduling costs nothing. Results do not depend on it.
-std::int64_t default_block_size(const Layout& layout);
+///
+/// @param seconds_per_point  where it is known: a block of slow points must not take long, or
+/// nobody
+///                           sees progress and the last blocks end at different times
+std::int64_t default_block_size(const Layout& layout, double seconds_per_point = 0.0);
 
 /// Evaluates every point of the study in blocks, in parallel, and hands the blocks to the sink in
 /// order. Does not call Sink::finish: an interrupted run (progress.done() < points) is the

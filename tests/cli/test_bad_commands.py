@@ -56,7 +56,9 @@ class BadCommands(ProgramTest):
     def test_every_fault_of_several_sets(self):
         self.check(["run", "study.toml", "--set", "cutter.flutes=0", "--set", "cut.exit_deg=200"],
                    "--set cutter.flutes=0: cutter.flutes = 0 must be >= 1",
-                   "--set cut.exit_deg=200: cut.exit_deg = 200 deg must be <= 180")
+                   "--set cut.exit_deg=200: cut.exit_deg = 200 deg must be <= 180",
+                   "--set cut.exit_deg=200: cut.entry_deg and cut.exit_deg contradict cut.milling: "
+                   "give one or the other")
 
     def test_output_that_cannot_be_written(self):
         run = ["run", "study.toml", "-o"]

@@ -12,7 +12,7 @@ PAGES = sorted([SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *(SOURCE / "do
 # Set-up commands: CI itself is the test of these, and tests/install that of the installation.
 SET_UP = ("scripts/quickstart.sh", "scripts/test.sh", "cmake --install")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-SAVED = re.compile(r"Save this as `([^`]+)`:\n\n```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
+SAVED = re.compile(r"save this as `([^`]+)`:\n\n```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
 
 

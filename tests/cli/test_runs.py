@@ -224,6 +224,25 @@ class Plan(ProgramTest):
         self.assertEqual(plan["dimensions"], ["radial_depth_mm", "feed_rate_mm_per_min"])
         self.assertEqual(plan["shape"], [4, 2])
 
+    def test_no_result_is_larger_than_planned(self):
+        axes = '[sweep.axes]\n"cut.axial_depth_mm" = { from = 0.1, to = 9.0, count = %d }\n' \
+               '"cutter.helix_deg" = { from = 0.0, to = 50.0, count = %d }\n'
+        for text in (SLOT, SLOT + axes % (2, 3), SLOT + axes % (300, 301),
+                     SLOT + "[output]\ntraces = true\n" + axes % (5, 2)):
+            self.write(text)
+            planned = json.loads(self.millstudy("plan", "study.toml", "--json").stdout)["file_bytes"]
+            self.millstudy("run", "study.toml", "-o", "R.h5", "--fresh")
+            size = (self.folder / "R.h5").stat().st_size
+            self.assertLessEqual(size, planned)
+            self.assertLess(planned, 3.0 * size + 2e6 * ("traces" in text))
+
+    def test_slow_points_are_not_timed_by_the_thousand(self):
+        self.write(SLOT.replace("angular_steps = 90",
+                                'angular_steps = 1000\nrule = "discs"\ndiscs = 500_000') +
+                   '[sweep.axes]\n"cut.axial_depth_mm" = { from = 0.1, to = 9.0, count = 1000 }\n'
+                   '"cut.spindle_speed_rpm" = { from = 9000.0, to = 20000.0, count = 1000 }\n')
+        self.assertIn("points:  1,000,000\n", self.millstudy("plan", "study.toml", timeout=20).stdout)
+
 
 class Other(ProgramTest):
     def test_version_and_help(self):

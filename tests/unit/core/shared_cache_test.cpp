@@ -25,5 +25,16 @@ TEST(SharedCache, KeepsAValueAliveForItsUserAfterDroppingIt) {
   EXPECT_EQ(*held, 7);
 }
 
+TEST(SharedCache, HoldsNoMoreThanItsCapacity) {
+  SharedCache<int> cache(10, [](const int& value) { return static_cast<std::size_t>(value); });
+  cache.get("six", [] { return 6; });
+  cache.get("five", [] { return 5; });  // drops six
+  int made = 0;
+  cache.get("five", [&] { return ++made; });
+  EXPECT_EQ(made, 0);
+  EXPECT_EQ(*cache.get("twelve", [] { return 12; }), 12);  // too much to be kept at all
+  EXPECT_EQ(*cache.get("twelve", [] { return 13; }), 13);
+}
+
 }  // namespace
 }  // namespace millstudy::core

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "study/share_key.h"
 #include "study_text.h"
 
 namespace millstudy::study {
@@ -74,6 +75,43 @@ TEST(Evaluate, SkipsWhatIsOutsideTheLimitsBoundsInclusive) {
   EXPECT_EQ(block.status[0], sweep::Status::ok);
   EXPECT_EQ(block.status[1], sweep::Status::ok);
   EXPECT_EQ(block.status[2], sweep::Status::skipped);
+}
+
+TEST(Evaluate, TheOrderOfLimitsDoesNotCount) {
+  Value root = slot_study();
+  set(root, "cut", "milling", of("up"));
+  sweep(root, {{"cut.radial_depth_mm", list(3.0, 13.0)}});  // 13 mm do not fit the cutter
+  const Value immersion = table({{"quantity", of("radial_immersion")}, {"max", of(0.5)}});
+  const Value depth = table({{"quantity", of("cut.radial_depth_mm")}, {"max", of(4.0)}});
+  std::string canonical;
+  for (const auto& limits : {Value::Array{immersion, depth}, Value::Array{depth, immersion}}) {
+    Value limited = root;
+    limited.find("sweep")->table().push_back({"where", {limits, {"test.toml", 1}}});
+    const Study study = resolved(limited);
+    EXPECT_EQ(evaluated(study).status[1], sweep::Status::skipped);
+    EXPECT_TRUE(canonical.empty() || canonical == study.canonical);
+    canonical = study.canonical;
+  }
+}
+
+TEST(Evaluate, AnAbsurdFeedPerToothFails) {
+  Value root = slot_study();
+  sweep(root, {{"cut.spindle_speed_rpm", list(14.5, 14500.0)}});
+  const sweep::Block block = evaluated(resolved(root));
+  EXPECT_EQ(block.status[0], sweep::Status::failed);
+  EXPECT_EQ(block.status[1], sweep::Status::ok);
+}
+
+TEST(ShareKey, DiffersForEveryKeyOfItsSections) {
+  for (const Key& key : cutter_keys()) {
+    if (!key.field) continue;
+    Case one, other;
+    apply(key, key.numeric() ? Setting(2.0) : Setting(std::string(key.choices[0])), one);
+    apply(key, key.numeric() ? Setting(3.0) : Setting(std::string(key.choices[1])), other);
+    EXPECT_NE(share_key({cutter_keys()}, one, {}), share_key({cutter_keys()}, other, {}))
+        << key.path;
+    EXPECT_EQ(share_key({cutter_keys()}, one, {}), share_key({cutter_keys()}, Case(one), {}));
+  }
 }
 
 TEST(Evaluate, SharedGeometryGivesTheSameBitsAsItsOwn) {

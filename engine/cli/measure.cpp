@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "cli/measure.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace millstudy::cli {
+
+Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layout& layout,
+                        std::int64_t block_size, std::int64_t most_blocks, double budget) {
+  const std::int64_t blocks = (layout.points() + block_size - 1) / block_size;
+  const std::int64_t tried = std::min(blocks, most_blocks);
+  Estimate estimate;
+  double samples = 0.0;
+  std::int64_t skipped = 0;
+  double seconds = 0.0;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t i = 0; i < tried && (i == 0 || seconds < budget); ++i) {
+    const std::int64_t first = (2 * i + 1) * blocks / (2 * tried) * block_size;
+    sweep::Block block(first, std::min(block_size, layout.points() - first), layout.columns.size(),
+                       layout.traces);
+    evaluate(block);
+    estimate.measured_points += block.count;
+    skipped += std::count(block.status.begin(), block.status.end(), sweep::Status::skipped);
+    for (const sweep::Trace& trace : block.traces) {
+      samples += static_cast<double>(trace.time.size());
+    }
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  const auto measured = static_cast<double>(estimate.measured_points);
+  estimate.seconds_per_point = seconds / measured;
+  estimate.trace_samples_per_point = samples / measured;
+  estimate.skipped_part = static_cast<double>(skipped) / measured;
+  return estimate;
+}
+
+Estimate measure(const study::Study& study, const sweep::Layout& layout) {
+  constexpr double kBudget = 1.0;  // [s], each time
+  constexpr std::int64_t kMostBlocks = 16;
+  const sweep::EvaluateBlock evaluate = study::block_evaluator(study);
+  const Estimate single = measure_blocks(evaluate, layout, 1, kMostBlocks, kBudget);
+  const std::int64_t size = sweep::default_block_size(layout, single.seconds_per_point);
+  return size == 1 ? single : measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
+}
+
+}  // namespace millstudy::cli

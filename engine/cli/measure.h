@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "study/study.h"
+
+namespace millstudy::cli {
+
+/// What points of a study cost, by trying some.
+struct Estimate {
+  double seconds_per_point = 0.0;  ///< on one thread
+  double trace_samples_per_point = 0.0;
+  double skipped_part = 0.0;
+  std::int64_t measured_points = 0;
+};
+
+/// Times blocks of one size spread evenly over the study, at most most_blocks of them, until the
+/// budget is spent; at least one.
+///
+/// @param budget  [s]; exceeded by the last block at most
+Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layout& layout,
+                        std::int64_t block_size, std::int64_t most_blocks, double budget);
+
+/// Points one by one first, since nobody knows how slow they are; then, where they are fast, whole
+/// blocks, in which points share work as they do in a run.
+Estimate measure(const study::Study& study, const sweep::Layout& layout);
+
+}  // namespace millstudy::cli
