@@ -19,7 +19,7 @@ double gauss(const Curve& curve, std::size_t span, double a, double b) {
   const double half = 0.5 * (b - a);
   double sum = 0.0;
   for (int i = 0; i < kNodes; ++i) {
-    const Lanes d = curve.local({span, middle + half * rule.nodes[i]}).first;
+    const Homogeneous d = curve.local({span, middle + half * rule.nodes[i]}).first;
     sum += rule.weights[i] * std::sqrt(dot(d, d));
   }
   return half * sum;

@@ -14,7 +14,7 @@ constexpr int kNodes = 5;
 double speed(const Curve& curve, double u, std::size_t& hint) {
   const Cursor at = curve.locate(u, hint);
   hint = at.span;
-  const Lanes first = curve.local(at).first;
+  const Homogeneous first = curve.local(at).first;
   return curve.spans()[at.span].inverse_half * std::sqrt(dot(first, first));
 }
 

@@ -2,15 +2,14 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "path/curve_data.h"
-#include "path/lanes.h"
+#include "path/homogeneous.h"
 
 namespace millstudy::path {
 
 /// Control points of one polynomial piece in Bernstein form; the first degree + 1 are in use.
-using BezierPoints = std::array<Lanes, kHighestDegree + 1>;
+using BezierPoints = std::array<Homogeneous, kHighestDegree + 1>;
 
 struct BezierHalves {
   BezierPoints left;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
+#include <span>
 
 #include "path/bernstein.h"
 
@@ -28,7 +28,7 @@ constexpr Pascal make_pascal() {
 }
 constexpr Pascal kBinomial = make_pascal();
 
-/// One piece of the chord polynomial: N - w P in lanes xyz, chord w in lane w.
+/// One piece of the chord polynomial: N - w P in xyz, chord w in w.
 struct ChordPiece {
   BezierPoints points;
   double band;  // relative rounding of (chord w)^2: what is within it counts as zero
@@ -42,16 +42,16 @@ double piece_band(const BezierPoints& m, int degree, double band) {
 }
 
 /// (P12) on span k between t0 and t1; `from` is about the origin of the span.
-ChordPiece chord_piece(const Curve& curve, std::size_t k, double t0, double t1, const Lanes& from,
-                       double chord) {
+ChordPiece chord_piece(const Curve& curve, std::size_t k, double t0, double t1,
+                       const Homogeneous& from, double chord) {
   const int p = curve.degree();
-  const std::span<const Lanes> bezier = curve.bezier(k);
+  const std::span<const Homogeneous> bezier = curve.bezier(k);
   ChordPiece piece{};
   double reach = 0.0;
   for (int i = 0; i <= p; ++i) {
     const double w = bezier[i].w();
     const Vec3 numerator = (bezier[i] - from * w).xyz();
-    piece.points[i] = make_lanes(numerator, chord * w);
+    piece.points[i] = make_homogeneous(numerator, chord * w);
     reach = std::max(reach, norm(numerator) / w);
   }
   piece.band = 16.0 * kEpsilon * (reach + chord) / chord;
@@ -64,7 +64,7 @@ ChordPiece chord_piece(const Curve& curve, std::size_t k, double t0, double t1, 
 ChordPolynomial chord_polynomial(const BezierPoints& m, int p) {
   ChordPolynomial g{};
   for (int i = 0; i <= p; ++i) {
-    const Lanes mirrored = make_lanes(m[i].xyz(), -m[i].w());
+    const Homogeneous mirrored = make_homogeneous(m[i].xyz(), -m[i].w());
     g[2 * i] += kBinomial[p][i] * kBinomial[p][i] * dot(mirrored, m[i]);
     for (int j = i + 1; j <= p; ++j) {
       g[i + j] += 2.0 * kBinomial[p][i] * kBinomial[p][j] * dot(mirrored, m[j]);
@@ -114,7 +114,7 @@ class FirstRootSearch {
   }
 
  private:
-  double band_of(const Lanes& m) const { return band_ * m.w() * m.w(); }
+  double band_of(const Homogeneous& m) const { return band_ * m.w() * m.w(); }
   bool accept(double low, double high) {
     out_.found = true;
     out_.low = low;
@@ -129,12 +129,13 @@ class FirstRootSearch {
 
 }  // namespace
 
-RootBracket first_chord_root(const Curve& curve, Cursor start, const Lanes& from, double chord) {
+RootBracket first_chord_root(const Curve& curve, Cursor start, const Homogeneous& from,
+                             double chord) {
   RootBracket out;
   for (std::size_t k = start.span; k < curve.spans().size(); ++k) {
     const double t0 = k == start.span ? std::max(start.t, -1.0) : -1.0;
     if (t0 >= 1.0) continue;
-    const Lanes local = from + curve.offset(start.span, k);
+    const Homogeneous local = from + curve.offset(start.span, k);
     const ChordPiece piece = chord_piece(curve, k, t0, 1.0, local, chord);
     out.span = k;
     FirstRootSearch search(curve.degree(), piece.band, out);
@@ -143,14 +144,14 @@ RootBracket first_chord_root(const Curve& curve, Cursor start, const Lanes& from
   return out;
 }
 
-int chord_sign_changes(const Curve& curve, Cursor start, const Lanes& from, Cursor stop,
+int chord_sign_changes(const Curve& curve, Cursor start, const Homogeneous& from, Cursor stop,
                        double chord) {
   SignCounter signs;
   for (std::size_t k = start.span; k <= stop.span; ++k) {
     const double t0 = k == start.span ? std::max(start.t, -1.0) : -1.0;
     const double t1 = k == stop.span ? std::min(stop.t, 1.0) : 1.0;
     if (!(t1 > t0)) continue;
-    const Lanes local = from + curve.offset(start.span, k);
+    const Homogeneous local = from + curve.offset(start.span, k);
     const ChordPiece piece = chord_piece(curve, k, t0, t1, local, chord);
     const ChordPolynomial g = chord_polynomial(piece.points, curve.degree());
     const double band = piece_band(piece.points, curve.degree(), piece.band);

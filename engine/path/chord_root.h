@@ -27,13 +27,14 @@ struct RootBracket {
 /// counts where it touches within rounding.
 ///
 /// @param start  where the tool stands
-/// @param from   R at start, about the origin of its span, lane w = 1
+/// @param from   R at start, about the origin of its span, w = 1
 /// @param chord  > 0 [mm]
-RootBracket first_chord_root(const Curve& curve, Cursor start, const Lanes& from, double chord);
+RootBracket first_chord_root(const Curve& curve, Cursor start, const Homogeneous& from,
+                             double chord);
 
 /// How often the Bernstein coefficients of G change sign from start to stop. At most 1 means: the
 /// chord reaches its length at most once there, so stop is not beyond a first root and back.
-int chord_sign_changes(const Curve& curve, Cursor start, const Lanes& from, Cursor stop,
+int chord_sign_changes(const Curve& curve, Cursor start, const Homogeneous& from, Cursor stop,
                        double chord);
 
 }  // namespace millstudy::path

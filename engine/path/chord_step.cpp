@@ -24,7 +24,7 @@ class ChordFrame {
   ChordFrame(const Curve& curve, const Stand& from)
       : curve_(curve), from_(from), span_(from.at.span), local_(from.point.position) {}
 
-  Lanes chord_to(Cursor at, const LocalPoint& point) {
+  Homogeneous chord_to(Cursor at, const LocalPoint& point) {
     if (at.span != span_) {
       span_ = at.span;
       local_ = from_.point.position + curve_.offset(from_.at.span, span_);
@@ -36,15 +36,11 @@ class ChordFrame {
   const Curve& curve_;
   const Stand& from_;
   std::size_t span_;
-  Lanes local_;
+  Homogeneous local_;
 };
 
 bool is_ahead(Cursor a, Cursor b) {
   return b.span > a.span || (b.span == a.span && b.t > a.t);
-}
-
-bool at_end(const Curve& curve, Cursor at) {
-  return at.span + 1 == curve.spans().size() && at.t >= 1.0;
 }
 
 /// (P11): the tangent stays within a cone of 45 degrees about the tangent at the start.
@@ -88,7 +84,7 @@ bool stands(const Curve& curve, const Stand& from, const NewtonEnd& end,
   const bool converging =
       end.updates < kUpdatesToConverge && off <= end.previous && off <= kMostResidual * chord;
   if (!(converged || converging) || !is_ahead(from.at, end.at)) return false;
-  if (at_end(curve, end.at) && end.residual > kConverged * chord) return false;
+  if (curve.at_end(end.at) && end.residual > kConverged * chord) return false;
   return chord_surely_grows(curve, from, end.at, end.speed) ||
          chord_sign_changes(curve, from.at, from.point.position, end.at, chord) <= 1;
 }
@@ -167,7 +163,7 @@ ChordStep newton_step_across_spans(const Curve& curve, const Stand& from,
     at = curve.settle(at);
     step.to = stand_at(curve, at);
     ++step.evaluations;
-    const Lanes reach = frame.chord_to(at, step.to.point);
+    const Homogeneous reach = frame.chord_to(at, step.to.point);
     const double length = std::sqrt(dot(reach, reach));
     end.residual = chord - length;
     if (end.updates == settings.max_iterations ||
@@ -175,7 +171,7 @@ ChordStep newton_step_across_spans(const Curve& curve, const Stand& from,
       break;
     }
     const double growth = dot(reach, step.to.point.first);
-    const bool beyond = end.residual > 0.0 && at_end(curve, at);
+    const bool beyond = end.residual > 0.0 && curve.at_end(at);
     if (!(growth > 0.0) || beyond) return search_step(curve, from, chord, step.evaluations);
     end.previous = std::abs(end.residual);
     at.t += end.residual * length / growth;  // (P8)
@@ -188,7 +184,7 @@ ChordStep newton_step_across_spans(const Curve& curve, const Stand& from,
 }  // namespace
 
 double chord_length(const Curve& curve, const Stand& from, const Stand& to) {
-  const Lanes chord = ChordFrame(curve, from).chord_to(to.at, to.point);
+  const Homogeneous chord = ChordFrame(curve, from).chord_to(to.at, to.point);
   return std::sqrt(dot(chord, chord));
 }
 
@@ -220,7 +216,7 @@ ChordStep first_root_step(const Curve& curve, const Stand& from, double chord) {
     const Cursor at{root.span, t};
     const Stand here = stand_at(curve, at);
     ++step.evaluations;
-    const Lanes reach = frame.chord_to(at, here.point);
+    const Homogeneous reach = frame.chord_to(at, here.point);
     const double length = std::sqrt(dot(reach, reach));
     const double residual = chord - length;
     if (std::abs(residual) < best) {

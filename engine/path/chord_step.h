@@ -36,6 +36,13 @@ struct ChordSettings {
 /// The chord from one stand to another [mm], from differences of local coordinates.
 double chord_length(const Curve& curve, const Stand& from, const Stand& to);
 
+/// Whether a last chord is a partial step: it is a full one if it misses the wanted chord by no
+/// more than rounding could.
+inline bool is_partial(double chord, double wanted) {
+  constexpr double kSameChord = 1e-9;
+  return chord < (1.0 - kSameChord) * wanted;
+}
+
 /// One step of the safeguarded Newton method, equations (P8) to (P11).
 ///
 /// Plain Newton from the first-order start; its result is kept if it is proven to lie on the first

@@ -38,19 +38,18 @@ Curve::Curve(const CurveData& data) {
     span.origin = piece.origin;
     span.bend = piece.bend;
     double reach = kLeastReach * size;  // a span whose points are all equal still has rounding
-    for (const Lanes& b : piece.bezier) reach = std::max(reach, norm(b.xyz()) / b.w());
+    for (const Homogeneous& b : piece.bezier) reach = std::max(reach, norm(b.xyz()) / b.w());
     span.rest = kRounding * degree_ * reach;
     span.rational = std::any_of(piece.power.begin() + 1, piece.power.end(),
-                                [](const Lanes& c) { return c.w() != 0.0; });
-    rational_ = rational_ || span.rational;
+                                [](const Homogeneous& c) { return c.w() != 0.0; });
     span.coefficients = coefficients_.size();
     coefficients_.insert(coefficients_.end(), piece.power.begin(), piece.power.end());
     bezier_.insert(bezier_.end(), piece.bezier.begin(), piece.bezier.end());
     spans_.push_back(span);
   }
   for (std::size_t k = 1; k < spans_.size(); ++k) {
-    const Lanes before = local({k - 1, 1.0}).first * spans_[k - 1].inverse_half;
-    const Lanes after = local({k, -1.0}).first * spans_[k].inverse_half;
+    const Homogeneous before = local({k - 1, 1.0}).first * spans_[k - 1].inverse_half;
+    const Homogeneous after = local({k, -1.0}).first * spans_[k].inverse_half;
     spans_[k].kink = norm((after - before).xyz());
   }
   length_ = arc_length(*this, begin(), end());
@@ -72,10 +71,10 @@ Cursor Curve::locate(double u, std::size_t hint) const {
 }
 
 Vec3 Curve::local_second(Cursor at, const LocalPoint& point) const {
-  const Lanes* c = &coefficients_[spans_[at.span].coefficients];
-  Lanes value = c[degree_] * 0.0;
-  Lanes slope = value;
-  Lanes second = value;
+  const Homogeneous* c = &coefficients_[spans_[at.span].coefficients];
+  Homogeneous value = c[degree_] * 0.0;
+  Homogeneous slope = value;
+  Homogeneous second = value;
   for (int i = degree_; i >= 0; --i) {
     second = second * at.t + slope;
     slope = slope * at.t + value;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "path/curve_data.h"
-#include "path/lanes.h"
-#include "path/reference_curve.h"
+#include "path/curve_point.h"
+#include "path/homogeneous.h"
 
 namespace millstudy::path {
 
@@ -33,16 +33,17 @@ struct Cursor {
   double t = -1.0;
 };
 
-/// R and dR/dt relative to the origin of the span; lane w is 1 in `position`, 0 in `first`.
+/// R and dR/dt relative to the origin of the span; w is 1 in `position`, 0 in `first`.
 struct LocalPoint {
-  Lanes position;
-  Lanes first;
+  Homogeneous position;
+  Homogeneous first;
 };
 
 /// Horner's rule on homogeneous coefficients about the middle of the span, equation (P3).
-inline LocalPoint evaluate_local(const Lanes* coefficients, int degree, bool rational, double t) {
-  Lanes value = coefficients[degree];
-  Lanes slope = value;
+inline LocalPoint evaluate_local(const Homogeneous* coefficients, int degree, bool rational,
+                                 double t) {
+  Homogeneous value = coefficients[degree];
+  Homogeneous slope = value;
   value = value * t + coefficients[degree - 1];
   for (int i = degree - 2; i >= 0; --i) {
     slope = slope * t + value;
@@ -74,7 +75,6 @@ class Curve {
   explicit Curve(const CurveData& data);
 
   int degree() const { return degree_; }
-  bool rational() const { return rational_; }
   double begin() const { return spans_.front().begin; }  ///< first parameter
   double end() const { return spans_.back().end; }       ///< last parameter
   double length() const { return length_; }              ///< arc length [mm], see arc_length()
@@ -100,9 +100,12 @@ class Curve {
   }
 
   /// Homogeneous power form of a span in t, ascending, shape (degree + 1).
-  const Lanes* coefficients(std::size_t span) const {
+  const Homogeneous* coefficients(std::size_t span) const {
     return &coefficients_[spans_[span].coefficients];
   }
+
+  /// Whether a place that settle() gave is the end of the curve.
+  bool at_end(Cursor at) const { return at.span + 1 == spans_.size() && at.t >= 1.0; }
 
   double parameter(Cursor at) const { return spans_[at.span].middle + spans_[at.span].half * at.t; }
 
@@ -114,12 +117,12 @@ class Curve {
   Vec3 local_second(Cursor at, const LocalPoint& point) const;
 
   /// A vector from one local frame in another: origin(from) - origin(to).
-  Lanes offset(std::size_t from, std::size_t to) const {
-    return make_lanes(spans_[from].origin - spans_[to].origin, 0.0);
+  Homogeneous offset(std::size_t from, std::size_t to) const {
+    return make_homogeneous(spans_[from].origin - spans_[to].origin, 0.0);
   }
 
   /// Control points of the piece in Bernstein form, about its local origin, shape (degree + 1).
-  std::span<const Lanes> bezier(std::size_t span) const {
+  std::span<const Homogeneous> bezier(std::size_t span) const {
     return {&bezier_[spans_[span].coefficients], static_cast<std::size_t>(degree_ + 1)};
   }
 
@@ -129,11 +132,10 @@ class Curve {
   }
 
   int degree_ = 0;
-  bool rational_ = false;
   double length_ = 0.0;
   std::vector<Span> spans_;
-  std::vector<Lanes> coefficients_;  // power basis in t, ascending, degree + 1 for each span
-  std::vector<Lanes> bezier_;        // the same pieces in Bernstein form
+  std::vector<Homogeneous> coefficients_;  // power basis in t, ascending, degree + 1 for each span
+  std::vector<Homogeneous> bezier_;        // the same pieces in Bernstein form
 };
 
 }  // namespace millstudy::path

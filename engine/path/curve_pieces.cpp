@@ -2,6 +2,7 @@
 #include "path/curve_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
@@ -24,8 +25,8 @@ Point blend(const Point& a, const Point& b, Real s) {
   return c;
 }
 
-Lanes rounded(const Point& a) {
-  return make_lanes(
+Homogeneous rounded(const Point& a) {
+  return make_homogeneous(
       {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])},
       static_cast<double>(a[3]));
 }
@@ -66,10 +67,10 @@ Points differences(const Points& points) {
 
 /// Power form about the middle, t in [-1, 1]. Coefficient k is the k-th derivative at the middle
 /// over k!, and that is the end of the right half's k-th difference: (P5).
-std::vector<Lanes> power_form(const Points& bezier) {
+std::vector<Homogeneous> power_form(const Points& bezier) {
   const int p = static_cast<int>(bezier.size()) - 1;
   Points difference = cut(bezier, 0.5L).second;  // the right half, of length 1 in t
-  std::vector<Lanes> power;
+  std::vector<Homogeneous> power;
   Real binomial = 1.0L;
   for (int k = 0; k <= p; ++k) {
     const Point& d = difference[0];
@@ -147,7 +148,7 @@ void add_pieces(const Points& bezier, double begin, double end, const Vec3& orig
 
 /// Equal weights come out of the recursions as 1 to rounding; exactly 1 spares the division.
 void remove_rounding_of_weights(Piece& piece) {
-  for (Lanes& b : piece.bezier) b.v[3] = 1.0;
+  for (Homogeneous& b : piece.bezier) b.v[3] = 1.0;
   for (std::size_t i = 0; i < piece.power.size(); ++i) piece.power[i].v[3] = i == 0 ? 1.0 : 0.0;
 }
 

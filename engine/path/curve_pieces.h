@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "path/curve_data.h"
-#include "path/lanes.h"
+#include "path/homogeneous.h"
 
 namespace millstudy::path {
 
@@ -13,10 +12,10 @@ namespace millstudy::path {
 struct Piece {
   double begin = 0.0;
   double end = 0.0;
-  Vec3 origin;                ///< the control points below are about this one [mm]
-  std::vector<Lanes> bezier;  ///< homogeneous Bernstein form, shape (degree + 1)
-  std::vector<Lanes> power;   ///< homogeneous power form about the middle, shape (degree + 1)
-  double bend = 0.0;          ///< upper bound of |d2R/dt2| [mm]
+  Vec3 origin;                      ///< the control points below are about this one [mm]
+  std::vector<Homogeneous> bezier;  ///< homogeneous Bernstein form, shape (degree + 1)
+  std::vector<Homogeneous> power;   ///< homogeneous power form about the middle, shape (degree + 1)
+  double bend = 0.0;                ///< upper bound of |d2R/dt2| [mm]
 };
 
 /// The non-empty knot spans of a faultless curve as pieces whose weights vary at most fourfold.

@@ -18,7 +18,6 @@ namespace millstudy::path {
 namespace {
 
 constexpr double kJoinedRest = 1e-10;  // of the last parameter step
-constexpr double kSameChord = 1e-9;    // a last chord this close to the wanted one is a full step
 constexpr int kMostIterations = 1000;
 
 void refuse_bad_settings(const InterpolationSettings& s) {
@@ -80,7 +79,7 @@ class PathWriter {
     if (step.ended) {
       const double chord = chord_length(curve_, from, step.to);
       append(step.to, curve_.end());
-      out_.partial = chord < (1.0 - kSameChord) * out_.wanted_chord;
+      out_.partial = is_partial(chord, out_.wanted_chord);
       out_.full_steps += out_.partial ? 0 : 1;
       return false;
     }

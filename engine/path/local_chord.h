@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "path/lanes.h"
+#include "path/homogeneous.h"
 
 namespace millstudy::path {
 
@@ -25,8 +25,8 @@ class LocalChord {
  public:
   /// @param c  homogeneous power form of the span, shape (kDegree + 1)
   /// @param t  the place
-  [[gnu::always_inline]] LocalChord(const Lanes* c, double t) {
-    std::array<Lanes, kDegree + 1> d;
+  [[gnu::always_inline]] LocalChord(const Homogeneous* c, double t) {
+    std::array<Homogeneous, kDegree + 1> d;
 #pragma GCC unroll 16
     for (int i = 0; i <= kDegree; ++i) d[i] = c[i];
 #pragma GCC unroll 16
@@ -37,12 +37,12 @@ class LocalChord {
     if constexpr (kRational) {
       const double inverse = 1.0 / d[0].w();
 #pragma GCC unroll 16
-      for (Lanes& lanes : d) lanes = lanes * inverse;
+      for (Homogeneous& e : d) e = e * inverse;
       weight_[0] = 1.0;
 #pragma GCC unroll 16
       for (int i = 1; i <= kDegree; ++i) {
         weight_[i] = d[i].w();
-        d[i] = d[i] - d[0] * weight_[i];  // E_i, lane w is 0
+        d[i] = d[i] - d[0] * weight_[i];  // E_i, w is 0
       }
     }
 #pragma GCC unroll 16

@@ -6,12 +6,6 @@
 namespace millstudy::path {
 namespace {
 
-constexpr double kSameChord = 1e-9;  // a last chord this close to the wanted one is a full step
-
-bool at_end(const Curve& curve, Cursor at) {
-  return at.span + 1 == curve.spans().size() && at.t >= 1.0;
-}
-
 /// R' = 0 to rounding: a doubled control point or a cusp.
 bool rests(const Curve& curve, const Stand& from) {
   return norm(from.point.first.xyz()) <= curve.spans()[from.at.span].rest;
@@ -24,7 +18,7 @@ ChordStep step_by(const Curve& curve, const Stand& from, double dt, double chord
   const Cursor at = curve.settle({from.at.span, from.at.t + dt});
   step.to = stand_at(curve, at);
   step.evaluations = 1;
-  step.ended = at_end(curve, at) && chord_length(curve, from, step.to) < (1.0 - kSameChord) * chord;
+  step.ended = curve.at_end(at) && is_partial(chord_length(curve, from, step.to), chord);
   return step;
 }
 
@@ -64,7 +58,7 @@ ChordStep predictor_corrector_step(const Curve& curve, const Stand& from,
     if (step.fallback || corrections == settings.max_iterations) return step;
     const double got = chord_length(curve, from, step.to);
     if (std::abs(chord - got) < settings.tolerance * chord) return step;
-    if (at_end(curve, step.to.at)) {
+    if (curve.at_end(step.to.at)) {
       if (step.ended) return step;
       dt =
           (curve.end() - curve.parameter(from.at)) * scale;  // what was stepped, not what was asked

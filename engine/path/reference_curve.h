@@ -2,15 +2,9 @@
 #pragma once
 
 #include "path/curve_data.h"
+#include "path/curve_point.h"
 
 namespace millstudy::path {
-
-/// Position and derivatives with respect to the parameter u.
-struct CurvePoint {
-  Vec3 position;  ///< R [mm]
-  Vec3 first;     ///< R' [mm]
-  Vec3 second;    ///< R'' [mm]
-};
 
 /// Cox-de Boor evaluation as the textbook has it: Piegl and Tiller, The NURBS Book, 2nd ed. 1997,
 /// algorithms A2.1 (span by bisection), A2.3 (basis functions and derivatives) and A4.2 (the

@@ -12,6 +12,7 @@
 #include "benchmark/path_cox_de_boor_baseline.h"
 #include "path/figures.h"
 #include "path/interpolate.h"
+#include "path/reference_curve.h"
 #include "unit/path/test_curves.h"
 
 namespace {

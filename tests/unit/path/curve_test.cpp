@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "path/arc_length.h"
+#include "path/reference_curve.h"
 #include "unit/path/test_curves.h"
 
 namespace millstudy::path {
@@ -85,8 +86,8 @@ TEST(Curve, SpansFollowEachOtherWithoutGaps) {
     const Curve curve(data);
     for (std::size_t k = 1; k < curve.spans().size(); ++k) {
       EXPECT_EQ(curve.spans()[k - 1].end, curve.spans()[k].begin);
-      const Lanes left = curve.local({k - 1, 1.0}).position + curve.offset(k - 1, k);
-      const Lanes right = curve.local({k, -1.0}).position;
+      const Homogeneous left = curve.local({k - 1, 1.0}).position + curve.offset(k - 1, k);
+      const Homogeneous right = curve.local({k, -1.0}).position;
       EXPECT_LT(norm((left - right).xyz()), 1e-13 * polygon_size(data)) << seed;
     }
   }

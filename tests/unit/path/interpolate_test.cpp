@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "path/figures.h"
+#include "path/reference_curve.h"
 #include "unit/path/test_curves.h"
 
 namespace millstudy::path {
