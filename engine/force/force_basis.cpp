@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "cutter/envelope.h"
 #include "force/discs.h"
 #include "force/tooth_integral.h"
 

@@ -2,6 +2,7 @@
 #include "force/sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "cutter/envelope.h"
+#include "force/lanes.h"
 #include "force/prepared_edges.h"
 #include "force/sampling_run.h"
 

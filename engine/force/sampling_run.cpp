@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/units.h"
+#include "force/lanes.h"
 #include "force/tooth_integral.h"
 
 namespace millstudy::force {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "force/harmonics.h"
-#include "force/lanes.h"
 
 namespace millstudy::force {
 

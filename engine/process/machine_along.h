@@ -7,8 +7,8 @@
 #include "cutter/cutter.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
-#include "force/history.h"
 #include "force/sampler.h"
+#include "force/statistics.h"
 #include "path/interpolate.h"
 
 namespace millstudy::process {

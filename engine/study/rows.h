@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "force/history.h"
+#include "force/statistics.h"
 #include "path/figures.h"
 #include "study/case.h"
 #include "sweep/block.h"

@@ -17,8 +17,8 @@
 
 #include "benchmark/force_disc_baseline.h"
 #include "core/units.h"
-#include "force/history.h"
 #include "force/sampler.h"
+#include "force/statistics.h"
 
 namespace {
 

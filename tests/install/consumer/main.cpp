@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A program outside the tree: one force and one interpolation with the installed engine.
 #include <cstdio>
-#include <millstudy/force/history.h>
 #include <millstudy/force/sampler.h>
+#include <millstudy/force/statistics.h>
 #include <millstudy/path/interpolate.h>
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "force/history.h"
+#include "force/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
