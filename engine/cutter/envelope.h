@@ -29,7 +29,8 @@ double curved_height(const Cutter& cutter);
 /// 1/cos(helix), to which (C12) leads continuously.
 double edge_length_rate(const Cutter& cutter);
 
-/// (C12): edge length per chip width, dS/db, on a ball [1]. Exact to rounding.
+/// (C12), which is (C2) over (C6): edge length per chip width, dS/db, on a ball [1]. Exact to
+/// rounding.
 ///
 /// @param helix_tangent  tan(helix), of either sign; it stays the same all along the edge
 /// @param sin_kappa      0 .. 1

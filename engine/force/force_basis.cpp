@@ -34,7 +34,7 @@ ForceBasis force_basis(const cutter::Cutter& cutter, const Engagement& engagemen
   check(edge_rule);
   ForceBasis basis;
   for (int tooth = 0; tooth < cutter.flutes; ++tooth) {
-    const double tip_angle = phi + tooth * cutter::pitch_angle(cutter);
+    const double tip_angle = phi + tooth * cutter::pitch_angle(cutter);  // (F5) at z = 0
     if (edge_rule.rule == Rule::discs) {
       add_discs(basis, cutter, engagement, edge_rule.discs, tip_angle);
       continue;

@@ -16,9 +16,9 @@ using ForceBasis = Basis<double>;
 /// Force on the tool at one angle, as a linear function of feed and the six coefficients: the
 /// readable reference, and the design matrix of a fit.
 ///
-/// (F3) summed over all teeth. Rule::exact: flat by the closed form (F9), ball by Gauss-Legendre
-/// in kappa (F10). Measured against adaptive quadrature: below 1e-12 of the peak, for helix angles
-/// from 0 to 60 deg of both hands. Rule::discs: (F12).
+/// (F7): (F3) summed over all teeth. Rule::exact: flat by the closed form (F9), ball by
+/// Gauss-Legendre in kappa (F10). Measured against adaptive quadrature: below 2e-13 of the peak,
+/// for helix angles from 0 to 60 deg of both hands. Rule::discs: (F12).
 ///
 /// @param phi  immersion angle of the tip of flute 0 [rad], any
 /// @return shape (4, 3) twice; zero when no tooth cuts

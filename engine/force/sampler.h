@@ -26,8 +26,8 @@ struct ForceSamples {
 /// every feed direction and every coefficient set.
 ///
 /// Immutable after construction, so one sampler serves any number of threads. A sample has the
-/// same bits however the range it is part of was cut. Agrees with force_basis() to 1e-13 of the
-/// peak (ball: 1e-12), plus what rounding the angle does where a tooth enters within less than
+/// same bits however the range it is part of was cut. Agrees with force_basis() to 3e-14 of the
+/// peak (ball: 6e-14), plus what rounding the angle does where a tooth enters within less than
 /// that; a test measures it.
 class ForceSampler {
  public:

@@ -38,8 +38,8 @@ struct Basis {
   Matrix43<T> edge{};  ///< times (Kte, Kre, Kae) [N/mm]; unit mm; torque rows mm2
 };
 
-/// Adds one slice of a cutting edge (F3): chip area h db = feed_per_tooth sin(phi) dz, edge
-/// length dS.
+/// Adds one slice of a cutting edge (F3): chip area h db = feed_per_tooth sin(phi) dz, from (F1),
+/// edge length dS.
 ///
 /// @param axes   edge_axes() of the slice
 /// @param chip   chip area per feed, sin(phi) dz [mm]
