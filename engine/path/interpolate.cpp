@@ -17,7 +17,10 @@
 namespace millstudy::path {
 namespace {
 
-constexpr double kJoinedRest = 1e-10;  // of the last parameter step
+// A rest of the curve this short, in last parameter steps, is joined to the last step: always, and
+// where rounding explains it.
+constexpr double kJoinedRest = 1e-10;
+constexpr double kLongestJoin = 1e-9;
 constexpr int kMostIterations = 1000;
 
 void refuse_bad_settings(const InterpolationSettings& s) {
@@ -89,9 +92,12 @@ class PathWriter {
     if (!(u > before)) u = std::nextafter(before, HUGE_VAL);
     const double rest = curve_.end() - u;
     const double spacing = std::numeric_limits<double>::epsilon() * std::abs(curve_.end());
-    // A curve of a whole number of chords is missed by no more than the rounding of every step.
+    // A curve of a whole number of chords is missed by no more than the rounding of every step. Of
+    // very many steps that would be a length one can see: it is then left as a partial step.
     const double rounding = spacing * static_cast<double>(out_.full_steps + 2);
-    const bool last = !(rest > std::max(kJoinedRest * (u - before), rounding));
+    const double joined =
+        std::clamp(rounding, kJoinedRest * (u - before), kLongestJoin * (u - before));
+    const bool last = !(rest > joined);
     ++out_.full_steps;
     if (last) {
       append(stand_at(curve_, {curve_.spans().size() - 1, 1.0}), curve_.end());

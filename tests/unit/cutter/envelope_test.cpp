@@ -41,6 +41,18 @@ TEST(Envelope, OfABallIsASphereUpToItsEquator) {
   EXPECT_EQ(envelope(kBall, 40.0).radius, 6.0);
 }
 
+TEST(SectionArea, KeepsItsDigitsAtTheTip) {
+  for (const double depth : {1e-3, 1e-6, 1e-10, 1e-14, 1e-18}) {
+    // Integral of sqrt(z (D - z)) for depth << D; the next term is 3 depth^2 / (56 D^2).
+    const double limit =
+        2.0 / 3.0 * std::sqrt(12.0) * std::pow(depth, 1.5) * (1.0 - 0.3 * depth / 12.0);
+    EXPECT_NEAR(section_area(kBall, depth) / limit, 1.0, 1e-9) << depth;
+    if (depth <= 1e-6) {
+      EXPECT_NEAR(section_area(kBall, depth) / limit, 1.0, 2e-14) << depth;
+    }
+  }
+}
+
 TEST(SectionArea, IsTheIntegralOfTheRadius) {
   const core::GaussRule& rule = core::gauss_legendre(40);
   for (const double depth : {0.01, 0.5, 3.0, 6.0, 9.5}) {

@@ -167,6 +167,35 @@ TEST(Newton, EndsALineExactly) {
   EXPECT_LT(path_figures(line, path).chord_error_max, 1e-13);
 }
 
+TEST(Newton, CutsNothingOffTheEndOfALongPath) {
+  struct Line {
+    double begin, length;
+    std::int64_t steps;
+  };
+  // Knots far from zero, or very many steps, must not turn a rest into part of the last step.
+  for (const Line& line : {Line{1e6, 100.0005, 100'000}, Line{1e6, 60.0003, 60'000},
+                           Line{0.0, 1000.0002, 1'000'000}, Line{0.0, 100.00001, 100'000}}) {
+    const Curve curve({1,
+                       {line.begin, line.begin, line.begin + 1.0, line.begin + 1.0},
+                       {{0.0, 0.0, 0.0}, {line.length, 0.0, 0.0}},
+                       {}});
+    const Interpolation path = interpolate(curve, with_chord(0.001));
+    EXPECT_EQ(path.full_steps, line.steps);
+    EXPECT_TRUE(path.partial);
+    EXPECT_LT(path_figures(curve, path).feed_fluctuation_max, line.begin > 0.0 ? 0.1 : 1e-6);
+  }
+}
+
+TEST(UniformParameter, TakesItsStepsWhereParametersAreCoarse) {
+  const Curve curve(
+      {1, {1e6, 1e6, 1e6 + 1.0, 1e6 + 1.0}, {{0.0, 0.0, 0.0}, {100.0, 0.0, 0.0}}, {}});
+  InterpolationSettings settings = with_chord(0.001, Method::uniform_parameter);
+  settings.steps = 1'000'000;
+  const Interpolation path = interpolate(curve, settings);
+  EXPECT_EQ(path.points.size(), 1'000'001U);
+  EXPECT_NEAR(path_figures(curve, path).feed_fluctuation_max, 90.0, 0.1);
+}
+
 TEST(Newton, AChordLongerThanTheCurveIsOnePartialStep) {
   const Curve curve(test::butterfly());
   const Interpolation path = interpolate(curve, with_chord(1000.0));
