@@ -118,8 +118,7 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const S
   Handle dataset(H5Dcreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT, id, access.get()),
                  "create a variable");
   if (options.fill) {
-    write_attribute_data(dataset.get(), "_FillValue", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {1},
-                         &*options.fill);
+    write_attribute_data(dataset.get(), "_FillValue", type, H5T_NATIVE_DOUBLE, {1}, &*options.fill);
   }
   return dataset;
 }

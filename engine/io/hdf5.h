@@ -68,7 +68,7 @@ struct DatasetOptions {
   Shape chunk = {};        ///< empty: contiguous
   bool unlimited = false;  ///< one dimension that grows from 0
   int gzip = 0;            ///< level; with byte shuffle when > 0; chunked only
-  /// Fill value, written as _FillValue too; float64 only.
+  /// Fill value of a float variable, written as _FillValue too.
   std::optional<double> fill = std::nullopt;
   bool allocate = true;  ///< false: elements that nobody writes take no space
 };

@@ -133,9 +133,11 @@ TraceVariables create_traces(hid_t file, Builder& builder) {
       {"trace_force_z", {"N", "force on the tool along z"}},
   }};
   for (const auto& [name, description] : kSamples) {
-    Handle dataset =
-        hdf5::create_dataset(file, name, H5T_IEEE_F32LE, {0},
-                             {.chunk = {kChunkElements}, .unlimited = true, .gzip = kGzip});
+    Handle dataset = hdf5::create_dataset(file, name, H5T_IEEE_F32LE, {0},
+                                          {.chunk = {kChunkElements},
+                                           .unlimited = true,
+                                           .gzip = kGzip,
+                                           .fill = std::numeric_limits<double>::quiet_NaN()});
     describe(dataset.get(), description);
     hdf5::attach_scale(dataset.get(), traces.sample_scale.get(), 0);
     traces.samples.emplace_back(std::move(dataset), Shape{0}, Shape{kChunkElements});

@@ -95,6 +95,7 @@ def check_traces(data):
         assert data[name].dims == ("sample",) and data[name].dtype == np.float32
         assert data[name].size == count.sum()
     assert data["trace_time"].attrs["units"] == "s"
+    assert all(np.isnan(data[name].encoding["_FillValue"]) for name in SAMPLES)
     part = data.isel(sample=slice(int(start[4]), int(start[4] + count[4])))
     assert list(part["trace_time"].values) == [4.0, 4.125, 4.25, 4.375]
 
