@@ -123,17 +123,31 @@ const Slip kValueSlips[] = {
     {"linspace\\s*\\(\\s*(" MILLSTUDY_NUMBER ")\\s*,\\s*(" MILLSTUDY_NUMBER
      ")\\s*,\\s*([0-9]+)\\s*\\)",
      linspace_hint},
+    {"(?:^|=)\\s*[+-]?[0-9]+(?:,[0-9]+)*(?:,[0-9]+\\.|\\.[0-9]+,)[0-9]",
+     [](const Match&) {
+       return std::string("decimals take a point, and thousands nothing: 12000.5");
+     }},
     {"(?:^|=)\\s*([+-]?[0-9]+),([0-9]+)", decimal_comma},
     {"(?:^|[\\s\\[,=])([+-]?)\\.([0-9]+)", no_leading_digit},
     {"(?:^|[\\s\\[,=])([+-]?[0-9]+)\\.(?=$|[\\s,\\]};eE])", no_digit_after},
     {"(?:^|[\\[,=])\\s*(True|TRUE|False|FALSE|yes|Yes|YES|no|No|NO|on|On|off|Off)\\s*(?=$|[,\\]}])",
      flag},
+    {"[{,]\\s*[A-Za-z_]+\\s*:",
+     [](const Match&) { return std::string("a value follows =, not :"); }},
+    {"(?:^|[\\[,=])\\s*(null|NULL|None|nil)\\s*(?=$|[,\\]}])",
+     [](const Match& m) { return fmt::format("there is no {}: leave the key out", m.str(1)); }},
+    {"[A-Za-z_]\\(",
+     [](const Match&) {
+       return std::string("no functions; a range is written { from = 0, to = 50, count = 26 }");
+     }},
     {"[0-9)]\\s*[*/^]\\s*[0-9(a-z]|\\bpi\\b",
      [](const Match&) { return std::string("no arithmetic in a value: write the number itself"); }},
+    {"\\{[^{}]*[^,{\\s]\\s+[A-Za-z0-9_.-]+\\s*=",
+     [](const Match&) { return std::string("commas between the keys of a { }"); }},
     {"(?:^|[\\s\\[,=])(" MILLSTUDY_NUMBER ")\\s+[A-Za-z0-9_.-]+\\s*=",
      [](const Match&) { return std::string("each key takes a line of its own"); }},
     {"(?:^|[\\s\\[,=])(" MILLSTUDY_NUMBER
-     ")\\s*(?:%|(?![eE][0-9+-]|(?:inf|nan|true|false|[xob][0-9a-fA-F])\\b)"
+     ")\\s*(?:%|(?![eE](?:[0-9+-]|$)|(?:inf|nan|true|false|[xob][0-9a-fA-F])\\b)"
      "[A-Za-z][A-Za-z0-9/^*-]*)",
      unit},
     {"\\[.*;", [](const Match&) { return std::string("commas between the values of a list"); }},

@@ -37,6 +37,8 @@ TEST(TomlHint, NamesTheNumberThatIsMeant) {
           {"a = [1.0, .25]", point + "0.25"},
           {"a = 3.", point + "3.0"},
           {"a = [3., 4.0]", point + "3.0"},
+          {"a = 12,000.5", "decimals take a point, and thousands nothing: 12000.5"},
+          {"a = 1.000,5", "decimals take a point, and thousands nothing: 12000.5"},
           {"a = 2*3", "no arithmetic in a value: write the number itself"},
           {"a = 1/3", "no arithmetic in a value: write the number itself"},
           {"a = 14 500", "no space inside a number; a list takes [ ]"}});
@@ -49,6 +51,10 @@ TEST(TomlHint, TellsListsAndRanges) {
           {"a = [0:0.1:1]", "a range is written { from = 0, to = 1, count = 11 }"},
           {"a = [0:3:50]", "a range is written { from = 0, to = 50, count = 26 }"},
           {"a = linspace(0, 50, 26)", "a range is written { from = 0, to = 50, count = 26 }"},
+          {"a = range(0, 50, 2)",
+           "no functions; a range is written { from = 0, to = 50, count = 26 }"},
+          {"a = { from: 0, to: 3 }", "a value follows =, not :"},
+          {"a = { from = 0 to = 3 }", "commas between the keys of a { }"},
           {"a = [0.5 3.0]", "commas between the values of a list: 0.5, 3.0"},
           {"a = [0.5, 1.0 3.0]", "commas between the values of a list: 1.0, 3.0"},
           {"a = [0.5; 3.0]", "commas between the values of a list"}});
@@ -70,6 +76,7 @@ TEST(TomlHint, TellsTextsAndFlags) {
           {"a = False # not yet", "False is written false"},
           {"a = yes", "yes is written true"},
           {"a = no", "no is written false"},
+          {"a = None", "there is no None: leave the key out"},
           {"a = \"slot", "the closing quote is missing"},
           {"a = \"C:\\data\\slot.toml\"",
            "a \\ in a text starts a special character: write / in paths, or the text in 'single "
