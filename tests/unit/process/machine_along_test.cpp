@@ -102,8 +102,9 @@ TEST(MachineAlong, RefusesAPathThatClimbs) {
 
 TEST(MachineAlong, RefusesMoreSamplesThanAnybodyCanWaitFor) {
   Bench bench;
-  bench.machining.angular_steps = 1'000'000;
-  EXPECT_THROW(machine_along(straight(50'000, 0.058, 0.0), bench.sampler, bench.machining),
+  bench.machining.angular_steps = 50'000;
+  const force::ForceSampler sampler(kCutter, bench.engagement, {}, bench.machining.angular_steps);
+  EXPECT_THROW(machine_along(straight(50'000, 0.058, 0.0), sampler, bench.machining),
                core::CaseError);
 }
 
