@@ -16,7 +16,9 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
   double seconds = 0.0;
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t i = 0; i < tried && (i == 0 || seconds < budget); ++i) {
-    const std::int64_t first = (2 * i + 1) * blocks / (2 * tried) * block_size;
+    // Every seventh stratum in turn: what the budget leaves out is then spread evenly, too.
+    const std::int64_t stratum = tried % 7 == 0 ? i : 7 * i % tried;
+    const std::int64_t first = (2 * stratum + 1) * blocks / (2 * tried) * block_size;
     sweep::Block block(first, std::min(block_size, layout.points() - first), layout.columns.size(),
                        layout.traces);
     evaluate(block);
@@ -39,7 +41,10 @@ Estimate measure(const study::Study& study, const sweep::Layout& layout) {
   constexpr std::int64_t kMostBlocks = 16;
   const sweep::EvaluateBlock evaluate = study::block_evaluator(study);
   const Estimate single = measure_blocks(evaluate, layout, 1, kMostBlocks, kBudget);
-  const std::int64_t size = sweep::default_block_size(layout, single.seconds_per_point);
+  const auto affordable = static_cast<std::int64_t>(
+      kBudget / (static_cast<double>(kMostBlocks) * single.seconds_per_point));
+  const std::int64_t size =
+      std::clamp<std::int64_t>(affordable, 1, sweep::default_block_size(layout));
   return size == 1 ? single : measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
 }
 

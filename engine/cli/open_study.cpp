@@ -18,7 +18,7 @@ core::Value parse_override(const std::string& text) {
   const std::string name = "--set " + text;
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw core::InputError({{{name, 0}, "must be key=value"}});
+    throw core::InputError({name, 0}, "must be key=value");
   }
   try {
     return io::parse_toml(text, name);
@@ -31,9 +31,9 @@ core::Value parse_override(const std::string& text) {
     try {
       return io::parse_toml(text.substr(0, equals) + "= \"" + quoted + '"', name);
     } catch (const core::InputError&) {
-      throw core::InputError({{{name, 0},
-                               fmt::format("\"{}\" is not a dotted key such as cut.axial_depth_mm",
-                                           text.substr(0, equals))}});
+      throw core::InputError({name, 0},
+                             fmt::format("\"{}\" is not a dotted key such as cut.axial_depth_mm",
+                                         text.substr(0, equals)));
     }
   }
 }
@@ -79,11 +79,10 @@ void refuse_swept(const study::Study& study, const core::Value& change, const st
     const bool swept = std::any_of(study.axes.begin(), study.axes.end(),
                                    [&](const study::Axis& axis) { return axis.path == path; });
     if (swept) {
-      throw core::InputError(
-          {{{"--set " + text, 0},
-            fmt::format("{0} is an axis of the sweep; set the axis instead: --set "
-                        "'sweep.axes.\"{0}\"=[...]'",
-                        path)}});
+      throw core::InputError({"--set " + text, 0},
+                             fmt::format("{0} is an axis of the sweep; set the axis instead: --set "
+                                         "'sweep.axes.\"{0}\"=[...]'",
+                                         path));
     }
     refuse_swept(study, member.value, path, text);
   }

@@ -132,9 +132,9 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
   if (!summary) return std::nullopt;
   if (summary->text("study_hash") != open.hash) {
     throw core::InputError(
-        {{{path, 0},
-          "holds the result of another study; use --fresh to compute this one (the old "
-          "result is moved aside), or -o for another file"}});
+        {path, 0},
+        "holds the result of another study; use --fresh to compute this one (the old "
+        "result is moved aside), or -o for another file");
   }
   Outcome outcome{"already done", path, 0, 0, 0, 0.0, 0, open.hash, ""};
   outcome.ok = summary->integer("points_ok").value_or(0);
@@ -177,7 +177,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   const std::string path = settings.output.empty() ? open.study.name + ".h5" : settings.output;
   std::error_code different;
   if (fs::equivalent(path, options.file, different)) {
-    throw core::InputError({{{path, 0}, "is the study itself: give another result file with -o"}});
+    throw core::InputError({path, 0}, "is the study itself: give another result file with -o");
   }
   if (!settings.fresh) {
     if (const auto outcome = finished_result(path, open)) {

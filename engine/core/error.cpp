@@ -43,4 +43,7 @@ std::string to_string(const Fault& fault) {
 InputError::InputError(std::vector<Fault> faults)
     : std::runtime_error(joined(faults)), faults_(std::move(faults)) {}
 
+InputError::InputError(Place place, std::string text)
+    : InputError(std::vector<Fault>{Fault{std::move(place), std::move(text)}}) {}
+
 }  // namespace millstudy::core

@@ -31,7 +31,8 @@ std::string to_string(const Fault& fault);
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);
-  explicit InputError(std::string text) : InputError(std::vector<Fault>{{{}, std::move(text)}}) {}
+  InputError(Place place, std::string text);
+  explicit InputError(std::string text) : InputError(Place{}, std::move(text)) {}
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:

@@ -118,8 +118,7 @@ std::string canonical_text(const path::CurveData& data) {
 CurvePtr read_curve(const core::Value& table) {
   Faults faults;
   if (!table.is_table()) {
-    throw core::InputError(
-        {{table.place, "a curve must be a table, with degree, knots and points"}});
+    throw core::InputError(table.place, "a curve must be a table, with degree, knots and points");
   }
   check_keys(table, faults);
   path::CurveData data = read_data(table, faults);

@@ -14,7 +14,7 @@ namespace millstudy::study {
 namespace {
 
 [[noreturn]] void refuse(const core::Value& value, std::string text) {
-  throw core::InputError({{value.place, std::move(text)}});
+  throw core::InputError(value.place, std::move(text));
 }
 
 std::string quantity(double value, std::string_view unit) {

@@ -57,12 +57,12 @@ class Resolver {
  private:
   /// Without a version and a kind no key can be judged: these faults are reported alone.
   void find_kind() {
-    if (!tree_.is_table()) throw core::InputError({{given_.file, "a study must be a table"}});
+    if (!tree_.is_table()) throw core::InputError(given_.file, "a study must be a table");
     const core::Value* version = tree_.find("schema_version");
     if (version && version->is_number() && version->number() != 1.0) {
       throw core::InputError(
-          {{version->place, fmt::format("schema_version = {} is not known: this program reads 1",
-                                        version->number())}});
+          version->place,
+          fmt::format("schema_version = {} is not known: this program reads 1", version->number()));
     }
     const core::Value* section = tree_.find("study");
     const core::Value* kind = section ? section->find("kind") : nullptr;
@@ -70,20 +70,20 @@ class Resolver {
     for (const Kind* known : kinds()) names.push_back(known->name);
     if (!kind) {
       throw core::InputError(
-          {{section ? section->place : given_.file,
-            fmt::format("study.kind is missing: one of {}", fmt::join(names, ", "))}});
+          section ? section->place : given_.file,
+          fmt::format("study.kind is missing: one of {}", fmt::join(names, ", ")));
     }
     if (!kind->is_string()) {
-      throw core::InputError(
-          {{kind->place, fmt::format("study.kind must be a string, not {}", type_name(*kind))}});
+      throw core::InputError(kind->place,
+                             fmt::format("study.kind must be a string, not {}", type_name(*kind)));
     }
     for (const Kind* known : kinds()) {
       if (known->name == kind->string()) study_.kind = known;
     }
     if (!study_.kind) {
       throw core::InputError(
-          {{kind->place, fmt::format("study.kind = \"{}\" must be one of {}{}", kind->string(),
-                                     fmt::join(names, ", "), suggestion(kind->string(), names))}});
+          kind->place, fmt::format("study.kind = \"{}\" must be one of {}{}", kind->string(),
+                                   fmt::join(names, ", "), suggestion(kind->string(), names)));
     }
     known_ = key_paths(*study_.kind);
   }
@@ -199,10 +199,10 @@ class Resolver {
   }
 
   [[noreturn]] static void refuse_idle_file(const Key& key, const core::Place& place) {
-    throw core::InputError(
-        {{place, fmt::format("{} changes nothing: the study itself gives every key "
-                             "of the file; leave one of them out",
-                             key.path)}});
+    throw core::InputError(place,
+                           fmt::format("{} changes nothing: the study itself gives every key "
+                                       "of the file; leave one of them out",
+                                       key.path));
   }
 
   /// What a file says yields to what the study says itself.

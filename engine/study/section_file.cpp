@@ -25,8 +25,8 @@ core::Value load_named(const Key& key, const std::string& name, const core::Plac
     core::Value content = load(name);
     if (content.find("study")) {
       throw core::InputError(
-          {{content.place, fmt::format("is a study, not a {} file",
-                                       key.name().substr(0, key.name().rfind('_')))}});
+          content.place,
+          fmt::format("is a study, not a {} file", key.name().substr(0, key.name().rfind('_'))));
     }
     return content;
   } catch (const core::InputError& error) {

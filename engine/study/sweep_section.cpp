@@ -104,7 +104,7 @@ class SweepReader {
   }
 
   [[noreturn]] static void fail(const core::Value& value, std::string text) {
-    throw core::InputError({{value.place, std::move(text)}});
+    throw core::InputError(value.place, std::move(text));
   }
 
   static void check_length(const Key& key, const core::Value& value, double count) {
