@@ -22,7 +22,7 @@ void count_points(const Block& block, Progress& progress) {
 std::int64_t default_block_size(const Layout& layout, double seconds_per_point) {
   constexpr std::int64_t kFewestBlocks = 512;  // so that the last blocks end at about the same time
   constexpr double kLongestBlock = 0.25;       // [s]
-  std::int64_t largest = layout.traces ? 8 : 1024;
+  std::int64_t largest = layout.traces ? 8 : 256;
   if (seconds_per_point * static_cast<double>(largest) > kLongestBlock) {
     largest =
         std::max<std::int64_t>(1, static_cast<std::int64_t>(kLongestBlock / seconds_per_point));

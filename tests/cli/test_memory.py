@@ -17,9 +17,10 @@ def study(points):
 """
 
 
-# What is in flight (blocks, one chunk of each variable) is full at some 500 000 points; until then
-# memory creeps up from 31 to 36 MB. Keeping the results would take 170 MB more at 1e6 points.
-MOST_GROWTH = 1.2
+# What is in flight (blocks, one chunk of each variable, the allocator's spare) is full only at some
+# 500 000 points, and differs by a few MB from run to run. Keeping the results would take 170 MB more
+# at 1e6 points: six times as much.
+MOST_GROWTH = 1.4
 
 
 class Memory(ProgramTest):

@@ -74,7 +74,7 @@ TEST(Runner, EndsAtTheFlagWithWhatIsDone) {
 
 TEST(Runner, ChoosesSmallBlocksForTraces) {
   Layout layout = layout_of(1'000'000);
-  EXPECT_EQ(default_block_size(layout), 1024);
+  EXPECT_EQ(default_block_size(layout), 256);
   layout.traces = true;
   EXPECT_EQ(default_block_size(layout), 8);
 }
