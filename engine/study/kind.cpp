@@ -31,6 +31,13 @@ const Key* Kind::find_key(std::string_view path) const {
   return nullptr;
 }
 
+bool Kind::has_section(std::string_view path) const {
+  const std::vector<std::string_view> paths = key_paths(*this);
+  return std::any_of(paths.begin(), paths.end(), [&](std::string_view key) {
+    return key.size() > path.size() && key.starts_with(path) && key[path.size()] == '.';
+  });
+}
+
 std::vector<std::string_view> key_paths(const Kind& kind) {
   std::vector<std::string_view> paths;
   for (const std::span<const Key> section : kind.sections) {

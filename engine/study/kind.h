@@ -52,6 +52,8 @@ struct Kind {
 
   /// The key of that path, or nullptr.
   const Key* find_key(std::string_view path) const;
+  /// True if keys begin with this path and a dot: cut, cutter, study.
+  bool has_section(std::string_view path) const;
 };
 
 /// Dotted paths of all keys of a kind.

@@ -104,12 +104,6 @@ class Resolver {
     if (section->is_table()) section->table().push_back(std::move(file));
   }
 
-  bool is_section(std::string_view path) const {
-    return std::any_of(known_.begin(), known_.end(), [&](std::string_view key) {
-      return key.size() > path.size() && key.starts_with(path) && key[path.size()] == '.';
-    });
-  }
-
   /// The section as the key table spells it, which outlives this study's text.
   std::string_view section_named(std::string_view path) const {
     for (const std::string_view key : known_) {
@@ -126,7 +120,7 @@ class Resolver {
         read_inline_curve(value);
       } else if (const Key* key = study_.kind->find_key(path)) {
         read_key(*key, value);
-      } else if (is_section(path)) {
+      } else if (study_.kind->has_section(path)) {
         if (value.is_table()) {
           read_table(value, path);
         } else {

@@ -65,19 +65,13 @@ class SweepReader {
       const std::string path = prefix.empty() ? name : prefix + '.' + name;
       if (const Key* key = study_.kind->find_key(path)) {
         read_axis(*key, value);
-      } else if (value.is_table() && is_section(path)) {
+      } else if (value.is_table() && study_.kind->has_section(path)) {
         read_axes(value, path);
       } else {
         faults_.add(value.place, fmt::format("sweep.axes: {} is not a key of kind {}{}", path,
                                              study_.kind->name, suggestion(path, sweepable_)));
       }
     }
-  }
-
-  bool is_section(std::string_view path) const {
-    return std::any_of(sweepable_.begin(), sweepable_.end(), [&](std::string_view key) {
-      return key.size() > path.size() && key.starts_with(path) && key[path.size()] == '.';
-    });
   }
 
   void read_axis(const Key& key, const core::Value& value) {

@@ -1,4 +1,5 @@
 // A room includes itself and nothing else.
 #pragma once
-#include "core/other.h"
 #include <vector>
+
+#include "core/other.h"
