@@ -11,7 +11,7 @@ import unittest
 
 import h5py
 
-from program import PROGRAM, SLOT, ProgramTest
+from program import CURVE, CURVED_SLOT, PROGRAM, SLOT, ProgramTest
 from test_interruption import LONG
 
 TRACED = SLOT.replace("angular_steps = 90", "angular_steps = 100000") + "[output]\ntraces = true\n"
@@ -59,6 +59,24 @@ class Streams(ProgramTest):
         with h5py.File(self.folder / "R.h5") as file:
             self.assertEqual(file["power_mean"].shape, (100, 100))
             self.assertEqual(int(file.attrs["points_ok"]), 10_000)
+
+
+@unittest.skipIf(float(os.environ.get("MILLSTUDY_SLOW", "1")) > 1.0,
+                 "a sanitizer's address space has no such limit")
+class OutOfMemory(ProgramTest):
+    def test_ends_the_run_and_keeps_nothing(self):
+        self.write(CURVE, "curve.toml")
+        self.write(CURVED_SLOT.replace("angular_steps = 90", "angular_steps = 1_000_000")
+                   .replace("feed_rate_mm_per_min = 1740.0\n", "feed_rate_mm_per_min = 200.0\n") +
+                   "[output]\ntraces = true\n")
+        limit = 700 << 20  # [bytes] of address space; the time history of the point is larger
+        done = subprocess.run([PROGRAM, "run", "study.toml", "-o", "R.h5", "--quiet"],
+                              cwd=self.folder, text=True, capture_output=True, timeout=120,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(done.stderr, "out of memory, nothing was kept: use fewer threads, or fewer "
+                                      "samples per point\n")
+        self.assertEqual(sorted(self.files()), ["curve.toml", "study.toml"])
 
 
 class Terminal(ProgramTest):
