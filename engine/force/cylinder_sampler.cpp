@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cutter/envelope.h"
 #include "force/prepared_edges.h"
 #include "force/tooth_integral.h"
 
@@ -18,12 +17,12 @@ using Row = Harmonics::Row;
 constexpr double kShortRamp = 0.125;
 
 /// Force of unit height of edge, as harmonics of the immersion angle of the point itself.
-HarmonicBasis density_of(const cutter::Cutter& cutter) {
-  const double length = cutter::edge_length_rate(cutter);
-  const double r = cutter::radius(cutter);
-  return HarmonicBasis([&](double phi) {
+HarmonicBasis density_of(const CuttingEdges& edges, int flute, const EdgePiece& piece) {
+  const double tangent = edges.flutes()[flute].helix_tangent;
+  const EdgeNode unit = edges.node(piece, tangent, piece.bottom, 1.0);
+  return HarmonicBasis([&](double cosine, double sine) {
     Basis<double> basis;
-    add_slice(basis, edge_axes(std::sin(phi), std::cos(phi), 1.0, 0.0, r), std::sin(phi), length);
+    add_node(basis, edges, Rows::forces, flute, unit, sine, cosine);
     return basis;
   });
 }
@@ -97,62 +96,72 @@ Row scaled(Row row, double factor) {
 
 }  // namespace
 
-CylinderEdge::CylinderEdge(const cutter::Cutter& cutter, const Engagement& engagement, double z1,
-                           double z2)
-    : entry_(engagement.entry_angle),
-      exit_(engagement.exit_angle),
-      high_shift_(-std::min(cutter::lag_rate(cutter) * z1, cutter::lag_rate(cutter) * z2)),
-      low_shift_(-std::max(cutter::lag_rate(cutter) * z1, cutter::lag_rate(cutter) * z2)),
-      lag_(lag_over(cutter, z2 - z1)),
-      ramp_(std::min(lag_, exit_.value - entry_.value)),
-      per_lag_((z2 - z1) / lag_),
-      closed_(hand(cutter) > 0.0 ? Closed::above : Closed::below),
-      density_(density_of(cutter)),
-      whole_([&](double tip_angle) {
+CylinderEdge::CylinderEdge(const CuttingEdges& edges, int flute, const EdgePiece& piece)
+    : high_shift_(0.0),
+      low_shift_(0.0),
+      lag_(0.0),
+      per_lag_(0.0),
+      closed_(hand(edges.flutes()[flute].helix_tangent) > 0.0 ? Closed::above : Closed::below),
+      density_(density_of(edges, flute, piece)),
+      whole_([&](double cosine, double sine) {
         Basis<double> basis;
-        add_edge(basis, cutter, tip_angle, z1, z2);
+        add_edge(basis, edges, flute, std::atan2(sine, cosine), piece.bottom, piece.top);
         return basis;
-      }) {}
+      }) {
+  const double tangent = edges.flutes()[flute].helix_tangent;
+  const double lag1 = edges.envelope().lag(piece.bottom);
+  const double lag2 = edges.envelope().lag(piece.top);
+  high_shift_ = Angle(-std::min(tangent * lag1, tangent * lag2));
+  low_shift_ = Angle(-std::max(tangent * lag1, tangent * lag2));
+  lag_ = lag_over(tangent, lag2 - lag1);
+  per_lag_ = (piece.top - piece.bottom) / lag_;
+}
 
 /// (F13): the three stretches of a pass, by the immersion angles high and low of the edge's ends.
-void CylinderEdge::add_to(SamplingRun& run) const {
-  const double width = exit_.value - entry_.value;
-  const Harmonics density = density_.combine(run.with());
+void CylinderEdge::add_to(SamplingRun& run, const Combination& with, const Arc& arc) const {
+  const double width = arc.exit_angle - arc.entry_angle;
+  const Limits limits = {Angle(arc.entry_angle), Angle(arc.exit_angle), std::min(lag_, width)};
+  const Harmonics density = density_.combine(with);
   const Harmonics middle = lag_ <= width
-                               ? whole_.combine(run.with())
-                               : between_limits(density, entry_.value, exit_.value, per_lag_);
-  const double from = entry_.value - high_shift_.value + ramp_;
-  const double to = exit_.value - low_shift_.value - ramp_;
+                               ? whole_.combine(with)
+                               : between_limits(density, arc.entry_angle, arc.exit_angle, per_lag_);
+  const double from = arc.entry_angle - high_shift_.value + limits.ramp;
+  const double to = arc.exit_angle - low_shift_.value - limits.ramp;
   run.for_each_pass(from, to, [&](const Pass& pass) {
     run.add(pass, run.between(pass, from, to, closed_), middle);
   });
-  ramp_ < kShortRamp ? add_short_ramps(run, density) : add_long_ramps(run, density);
+  limits.ramp < kShortRamp ? add_short_ramps(run, density, limits)
+                           : add_long_ramps(run, density, limits);
 }
 
-void CylinderEdge::add_short_ramps(SamplingRun& run, const Harmonics& density) const {
-  const double entering = entry_.value - high_shift_.value;  // tip angle of the first contact
-  const double leaving = exit_.value - low_shift_.value;     // and of the last
-  const SamplingRun::Taylor up = taylor_of(density, entry_, per_lag_, 1.0);
-  const SamplingRun::Taylor down = taylor_of(density, exit_, per_lag_, -1.0);
+void CylinderEdge::add_short_ramps(SamplingRun& run, const Harmonics& density,
+                                   const Limits& limits) const {
+  const double ramp = limits.ramp;
+  const double entering = limits.entry.value - high_shift_.value;  // tip angle of first contact
+  const double leaving = limits.exit.value - low_shift_.value;     // and of the last
+  const SamplingRun::Taylor up = taylor_of(density, limits.entry, per_lag_, 1.0);
+  const SamplingRun::Taylor down = taylor_of(density, limits.exit, per_lag_, -1.0);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
-    run.add_taylor(pass, run.between(pass, entering, entering + ramp_, closed_), up, 1.0, entering);
-    run.add_taylor(pass, run.between(pass, leaving - ramp_, leaving, closed_), down, -1.0, leaving);
+    run.add_taylor(pass, run.between(pass, entering, entering + ramp, closed_), up, 1.0, entering);
+    run.add_taylor(pass, run.between(pass, leaving - ramp, leaving, closed_), down, -1.0, leaving);
   });
 }
 
-void CylinderEdge::add_long_ramps(SamplingRun& run, const Harmonics& density) const {
-  const double entering = entry_.value - high_shift_.value;
-  const double leaving = exit_.value - low_shift_.value;
+void CylinderEdge::add_long_ramps(SamplingRun& run, const Harmonics& density,
+                                  const Limits& limits) const {
+  const double ramp = limits.ramp;
+  const double entering = limits.entry.value - high_shift_.value;
+  const double leaving = limits.exit.value - low_shift_.value;
   const Harmonics integral = integral_of(density, per_lag_);
   const Row slope = scaled(density.constant, per_lag_);
   const Row opposite = scaled(slope, -1.0);
   Harmonics up = shifted(integral, high_shift_);
-  up.constant = scaled(value_at(integral, entry_), -1.0);
+  up.constant = scaled(value_at(integral, limits.entry), -1.0);
   Harmonics down = negative(shifted(integral, low_shift_));
-  down.constant = value_at(integral, exit_);
+  down.constant = value_at(integral, limits.exit);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
-    run.add(pass, run.between(pass, entering, entering + ramp_, closed_), up, slope, entering);
-    run.add(pass, run.between(pass, leaving - ramp_, leaving, closed_), down, opposite, leaving);
+    run.add(pass, run.between(pass, entering, entering + ramp, closed_), up, slope, entering);
+    run.add(pass, run.between(pass, leaving - ramp, leaving, closed_), down, opposite, leaving);
   });
 }
 

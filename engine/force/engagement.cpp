@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "force/engagement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "core/error.h"
+#include "cutter/envelope.h"
+#include "cutter/flutes.h"
 
 namespace millstudy::force {
 namespace {
@@ -40,27 +43,57 @@ Engagement down_milling(double radius, double radial_depth, double axial_depth) 
   return {core::kPi - immersed_angle(radius, radial_depth), core::kPi, axial_depth};
 }
 
-void check(const cutter::Cutter& cutter, const Engagement& engagement) {
-  const double entry_deg = core::deg_from_rad(engagement.entry_angle);
-  const double exit_deg = core::deg_from_rad(engagement.exit_angle);
+void check(const Arc& arc) {
+  const double entry_deg = core::deg_from_rad(arc.entry_angle);
+  const double exit_deg = core::deg_from_rad(arc.exit_angle);
   // A few roundings beyond 180 deg are let pass: exit angles come from acos and from degrees.
-  if (!(engagement.entry_angle >= 0.0 && engagement.entry_angle < engagement.exit_angle &&
-        engagement.exit_angle <= core::kPi + 1e-12)) {
+  if (!(arc.entry_angle >= 0.0 && arc.entry_angle < arc.exit_angle &&
+        arc.exit_angle <= core::kPi + 1e-12)) {
     throw core::InputError("entry_angle = " + std::to_string(entry_deg) + " deg and exit_angle = " +
                            std::to_string(exit_deg) + " deg must satisfy 0 <= entry < exit <= 180");
   }
-  if (!(engagement.axial_depth > 0.0 && std::isfinite(engagement.axial_depth))) {
-    throw core::InputError("axial_depth = " + std::to_string(engagement.axial_depth) +
-                           " mm must be > 0 and finite");
+}
+
+void check(const cutter::Cutter& cutter, const Engagement& engagement) {
+  check(engagement.arc());
+  const double depth = engagement.axial_depth;
+  if (!(depth > 0.0 && std::isfinite(depth))) {
+    throw core::InputError("axial_depth = " + std::to_string(depth) + " mm must be > 0 and finite");
   }
-  if (!(engagement.axial_depth <= largest_axial_depth(cutter))) {
-    throw core::InputError("axial_depth = " + std::to_string(engagement.axial_depth) +
+  const cutter::Envelope envelope(cutter);
+  if (!(depth <= envelope.length())) {
+    throw core::InputError("axial_depth = " + std::to_string(depth) +
+                           " mm must be at most the length of the cutter, " +
+                           std::to_string(envelope.length()) + " mm");
+  }
+  if (!(depth <= largest_axial_depth(cutter))) {
+    throw core::InputError("axial_depth = " + std::to_string(depth) +
                            " mm must not exceed 1000 turns of the helix");
+  }
+  const std::vector<cutter::Flute> flutes = cutter::flutes(cutter);
+  const double lag = envelope.lag(depth);
+  for (std::size_t j = 0; j < flutes.size(); ++j) {
+    const std::size_t next = (j + 1) % flutes.size();
+    const double pitch =
+        flutes[next].position - flutes[j].position + (next <= j ? 2.0 * core::kPi : 0.0);
+    const double closing = (flutes[next].helix_tangent - flutes[j].helix_tangent) * lag;
+    if (!(closing < pitch)) {
+      throw core::InputError("flutes " + std::to_string(j + 1) + " and " +
+                             std::to_string(next + 1) + " cross within the axial depth: check " +
+                             "their helix angles and pitch");
+    }
   }
 }
 
 double largest_axial_depth(const cutter::Cutter& cutter) {
-  return kMostTurns * 2.0 * core::kPi / std::abs(cutter::lag_rate(cutter));
+  const cutter::Envelope envelope(cutter);
+  double steepest = 0.0;
+  for (const cutter::Flute& flute : cutter::flutes(cutter)) {
+    steepest = std::max(steepest, std::abs(flute.helix_tangent));
+  }
+  const double turns = kMostTurns * 2.0 * core::kPi / steepest;
+  return std::min(envelope.length(),
+                  std::isfinite(turns) ? envelope.height_at_lag(turns) : envelope.length());
 }
 
 void check(const EdgeRule& edge_rule) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "force/coefficients.h"
 #include "force/lanes.h"
 #include "force/slice.h"
 
@@ -44,9 +45,26 @@ inline Harmonics shifted(const Harmonics& p, double cos_shift, double sin_shift)
 /// What a call multiplies the prepared geometry with: feed and coefficients (see loads()), and the
 /// direction of the feed frame into whose machine axes x and y are turned back.
 struct Combination {
-  std::array<double, 2 * kColumns> load;
+  Combination(const Loads& loads, double direction, bool plunging)
+      : load(loads),
+        columns(plunging ? kLoads : kLoads - kColumns),
+        cos_direction(std::cos(direction)),
+        sin_direction(std::sin(direction)) {}
+
+  Loads load;
+  int columns;  ///< the plunge columns count only where the feed leaves the plane
   double cos_direction;
   double sin_direction;
+
+  /// For a flute whose chips are this much thicker than the mean, (F21).
+  Combination with_pitch(double ratio) const {
+    Combination other = *this;
+    for (int column = 0; column < kColumns; ++column) {
+      other.load[column] *= ratio;
+      other.load[2 * kColumns + column] *= ratio;
+    }
+    return other;
+  }
 
   /// Turns the x and y of one row of forces.
   void turn(double* force) const {
@@ -75,12 +93,24 @@ class PreparedRows {
   /// Adds factor times a basis to one row.
   void add(std::size_t row, const Basis<double>& basis, double factor) {
     for (int component = 0; component < kRows; ++component) {
-      for (int column = 0; column < kColumns; ++column) {
-        const std::size_t at = kRows * row + component;
-        columns_[column][at] += factor * basis.chip[component][column];
-        columns_[kColumns + column][at] += factor * basis.edge[component][column];
+      for (int column = 0; column < kLoads; ++column) {
+        columns_[column][kRows * row + component] += factor * entry(basis, component, column);
       }
     }
+  }
+
+  /// Adds factor times other rows, of as many.
+  void add(const PreparedRows& other, double factor) {
+    for (int column = 0; column < kLoads; ++column) {
+      for (std::size_t at = 0; at < padded_; ++at) {
+        columns_[column][at] += factor * other.columns_[column][at];
+      }
+    }
+  }
+
+  /// One value, of component x, y, z, torque.
+  double& at(std::size_t row, int component, int column) {
+    return columns_[column][kRows * row + component];
   }
 
   /// Largest entry of a row over all loads.
@@ -96,11 +126,11 @@ class PreparedRows {
 
   /// The rows under the loads, in machine axes, times factor. `to` holds padded() values.
   void combine(const Combination& with, double factor, double* to) const {
-    std::array<double, 2 * kColumns> load_of = with.load;
+    Loads load_of = with.load;
     for (double& value : load_of) value *= factor;
     for (std::size_t at = 0; at < padded_; at += kLanes) {
       Lanes sum{};
-      for (int column = 0; column < 2 * kColumns; ++column) {
+      for (int column = 0; column < with.columns; ++column) {
         sum += load_of[column] * load(&columns_[column][at]);
       }
       std::memcpy(to + at, &sum, sizeof sum);
@@ -117,24 +147,49 @@ class PreparedRows {
 
   std::size_t rows_;
   std::size_t padded_;
-  std::array<std::vector<double>, 2 * kColumns> columns_;  // each of shape (rows, kRows), padded
+  std::array<std::vector<double>, kLoads> columns_;  // each of shape (rows, kRows), padded
+};
+
+/// Coefficients of Harmonics: constant, cos1, sin1, cos2, sin2.
+inline constexpr int kHarmonics = 5;
+
+/// The five angles whose samples give harmonics, and the discrete Fourier transform that does.
+struct HarmonicAngles {
+  std::array<double, kHarmonics> cosine;
+  std::array<double, kHarmonics> sine;
+  std::array<std::array<double, kHarmonics>, kHarmonics> weight;  ///< [harmonic][sample]
+
+  static const HarmonicAngles& get() {
+    static const HarmonicAngles angles;
+    return angles;
+  }
+
+ private:
+  HarmonicAngles() {
+    for (int i = 0; i < kHarmonics; ++i) {
+      const double angle = 2.0 * core::kPi * i / kHarmonics;
+      cosine[i] = std::cos(angle);
+      sine[i] = std::sin(angle);
+      weight[0][i] = 1.0 / kHarmonics;
+      weight[1][i] = 2.0 / kHarmonics * std::cos(angle);
+      weight[2][i] = 2.0 / kHarmonics * std::sin(angle);
+      weight[3][i] = 2.0 / kHarmonics * std::cos(2.0 * angle);
+      weight[4][i] = 2.0 / kHarmonics * std::sin(2.0 * angle);
+    }
+  }
 };
 
 /// Harmonics of geometry only.
 class HarmonicBasis {
  public:
-  /// From a function basis(angle) of the form above, by a discrete Fourier transform of five
-  /// samples, which is exact for it.
+  /// From a function basis(cos, sin of an angle) of the form above, by a discrete Fourier transform
+  /// of five samples, which is exact for it.
   template <class Function>
   explicit HarmonicBasis(const Function& basis) : rows_(kHarmonics) {
+    const HarmonicAngles& angles = HarmonicAngles::get();
     for (int i = 0; i < kHarmonics; ++i) {
-      const double angle = 2.0 * core::kPi * i / kHarmonics;
-      const Basis<double> sample = basis(angle);
-      rows_.add(0, sample, 1.0 / kHarmonics);
-      rows_.add(1, sample, 2.0 / kHarmonics * std::cos(angle));
-      rows_.add(2, sample, 2.0 / kHarmonics * std::sin(angle));
-      rows_.add(3, sample, 2.0 / kHarmonics * std::cos(2.0 * angle));
-      rows_.add(4, sample, 2.0 / kHarmonics * std::sin(2.0 * angle));
+      const Basis<double> sample = basis(angles.cosine[i], angles.sine[i]);
+      for (int h = 0; h < kHarmonics; ++h) rows_.add(h, sample, angles.weight[h][i]);
     }
   }
 
@@ -147,7 +202,6 @@ class HarmonicBasis {
   }
 
  private:
-  static constexpr int kHarmonics = 5;
   static_assert(sizeof(Harmonics) == kHarmonics * kRows * sizeof(double));
   PreparedRows rows_;
 };

@@ -1,90 +1,92 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <memory>
 #include <vector>
 
-#include "cutter/cutter.h"
-#include "force/discs.h"
+#include "force/edge.h"
 #include "force/engagement.h"
 #include "force/harmonics.h"
 #include "force/sampling_run.h"
 
 /// Geometry of one tooth prepared for the sampler, for each way of integrating it. All three are
-/// immutable; add_to() adds the tooth's passes to a run.
+/// immutable and know nothing of engagement, feed and coefficients; add_to() adds the passes of
+/// teeth to a run.
 namespace millstudy::force {
-
-/// An angle with its cosine and sine.
-struct Angle {
-  explicit Angle(double angle) : value(angle), cosine(std::cos(angle)), sine(std::sin(angle)) {}
-  double value;  ///< [rad]
-  double cosine;
-  double sine;
-};
 
 inline Harmonics shifted(const Harmonics& p, const Angle& shift) {
   return shifted(p, shift.cosine, shift.sine);
 }
 
-/// A cylindrical edge between two heights, in closed form (F9), (F13).
+/// A cylindrical piece in closed form (F9), (F13).
 class CylinderEdge {
  public:
-  /// @param z1, z2  heights on the cylinder [mm], z1 < z2
-  CylinderEdge(const cutter::Cutter& cutter, const Engagement& engagement, double z1, double z2);
-  void add_to(SamplingRun& run) const;
+  CylinderEdge(const CuttingEdges& edges, int flute, const EdgePiece& piece);
+  void add_to(SamplingRun& run, const Combination& with, const Arc& arc) const;
 
  private:
-  void add_short_ramps(SamplingRun& run, const Harmonics& density) const;
-  void add_long_ramps(SamplingRun& run, const Harmonics& density) const;
+  /// One engagement with what the closed forms need of it.
+  struct Limits {
+    Angle entry;
+    Angle exit;
+    double ramp;  ///< tip angle from the first contact to the fullest [rad]
+  };
+  void add_short_ramps(SamplingRun& run, const Harmonics& density, const Limits& limits) const;
+  void add_long_ramps(SamplingRun& run, const Harmonics& density, const Limits& limits) const;
 
-  Angle entry_;
-  Angle exit_;
   Angle high_shift_;  ///< largest immersion angle on the edge, less that of the tip
   Angle low_shift_;   ///< smallest, likewise
   double lag_;        ///< their difference [rad], > 0
-  double ramp_;       ///< tip angle from the first contact to the fullest [rad]
   double per_lag_;    ///< height over lag [mm/rad]
   Closed closed_;
   HarmonicBasis density_;  ///< per height [1/mm], in the angle of the point itself
   HarmonicBasis whole_;    ///< the edge all in cut, in the angle of the tip
 };
 
-/// The curved edge from the tip to a height, as Chebyshev series (F14). They are series in the root
-/// of the height, which is the ball's: other shapes have to be smooth in it too.
-class CurvedEdge {
+/// Any piece, as Chebyshev series (F14).
+class SeriesEdge {
  public:
-  /// @param top  [mm], 0 < top <= R
-  CurvedEdge(const cutter::Cutter& cutter, const Engagement& engagement, double top);
-  void add_to(SamplingRun& run) const;
+  SeriesEdge(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
+
+  /// The series for one engagement.
+  struct AtArc {
+    Arc arc;
+    PreparedRows entry;  ///< U_entry(l): the piece from its lower end to the lag l, with the point
+                         ///< at l at the entry angle
+    PreparedRows exit;   ///< U_exit(l)
+  };
+  AtArc at(const Arc& arc) const;
+  void add_to(SamplingRun& run, const Combination& with, const AtArc& engaged) const;
 
  private:
-  double entry_angle_;
-  double exit_angle_;
+  PreparedRows series_at(double limit) const;
+
   double hand_;
-  double lag_;
-  HarmonicBasis whole_;
-  PreparedRows
-      at_entry_;  ///< U_entry(l): edge from the tip up to where it stands at the entry angle
-  PreparedRows at_exit_;  ///< U_exit(l)
+  double shift_;         ///< immersion angle of the tip less that of the lower end [rad]
+  double lag_;           ///< of the upper end behind the lower [rad], > 0
+  double base_;          ///< where the series begin in the root, see SamplingRun::add_chebyshev()
+  HarmonicBasis whole_;  ///< in the angle of the tip
+  std::array<PreparedRows, kHarmonics> series_;  ///< of U_b(l), harmonics of b
 };
 
 /// Equal-height discs (F12).
 class DiscEdge {
  public:
-  DiscEdge(const cutter::Cutter& cutter, const Engagement& engagement, int discs);
-  void add_to(SamplingRun& run) const;
+  DiscEdge(std::shared_ptr<const CuttingEdges> edges, Rows rows, int flute, int discs);
+  void add_to(SamplingRun& run, const Combination& with, const Arc& arc) const;
 
  private:
-  struct Turned {
-    Disc disc;
-    double cos_lag;
-    double sin_lag;
+  struct Disc {
+    EdgeNode node;
+    Angle lag;
   };
 
-  double entry_angle_;
-  double exit_angle_;
+  std::shared_ptr<const CuttingEdges> edges_;
+  Rows rows_;
+  int flute_;
   Closed closed_;
-  std::vector<Turned> discs_;
+  std::vector<Disc> discs_;
 };
 
 }  // namespace millstudy::force

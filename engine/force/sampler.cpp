@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "cutter/envelope.h"
 #include "force/lanes.h"
+#include "force/nonlinear_force.h"
 #include "force/prepared_edges.h"
 #include "force/sampling_run.h"
 
@@ -18,6 +18,7 @@ namespace millstudy::force {
 namespace {
 
 constexpr int kMostAngularSteps = 10'000'000;
+constexpr int kAllFlutes = -1;
 
 int checked_steps(int angular_steps) {
   if (angular_steps < 1 || angular_steps > kMostAngularSteps) {
@@ -34,6 +35,46 @@ void repeat(double* values, std::int64_t period, std::int64_t count) {
   }
 }
 
+/// The cutter without what pitch and runout do to it: one flute of it stands for all that have its
+/// helix angle.
+cutter::Cutter plain(cutter::Cutter cutter) {
+  cutter.runout = {};
+  if (cutter::has_variable_helix(cutter)) return cutter;
+  cutter.pitch_angles.clear();
+  return cutter;
+}
+
+/// The prepared edge of one tooth.
+struct ToothGeometry {
+  ToothGeometry(const std::shared_ptr<const CuttingEdges>& edges, Rows rows, int flute,
+                const EdgeRule& edge_rule) {
+    if (edge_rule.rule == Rule::discs) {
+      discs.emplace(edges, rows, flute, edge_rule.discs);
+      return;
+    }
+    const bool closed_form =
+        rows == Rows::forces && !edges->variable_helix() && !edges->variation().with_height();
+    for (const EdgePiece& piece : edges->pieces()) {
+      if (closed_form && piece.segment.is_cylinder()) {
+        cylinders.emplace_back(*edges, flute, piece);
+      } else {
+        series.emplace_back(*edges, rows, flute, piece);
+      }
+    }
+  }
+
+  std::vector<SeriesEdge> series;
+  std::vector<CylinderEdge> cylinders;
+  std::optional<DiscEdge> discs;
+};
+
+/// A tooth, or a set of equal ones.
+struct Tooth {
+  std::size_t geometry;
+  Angle position;
+  double pitch_ratio;
+};
+
 }  // namespace
 
 void ForceSamples::resize(std::size_t count) {
@@ -41,67 +82,181 @@ void ForceSamples::resize(std::size_t count) {
 }
 
 struct ForceSampler::Geometry {
-  Geometry(const cutter::Cutter& cutter, const Engagement& engagement, const EdgeRule& edge_rule,
-           int angular_steps)
-      : tables(angular_steps, cutter.flutes) {
-    const double depth = engagement.axial_depth;
-    const double top = std::min(depth, cutter::curved_height(cutter));
-    if (edge_rule.rule == Rule::discs) {
-      discs.emplace(cutter, engagement, edge_rule.discs);
-      return;
+  Geometry(const cutter::Cutter& cutter, double axial_depth, const EdgeRule& edge_rule, int steps,
+           const Variation& variation, Rows row_kind)
+      : angular_steps(steps),
+        rows(row_kind),
+        edges(std::make_shared<const CuttingEdges>(cutter, axial_depth, variation)),
+        plain_edges(std::make_shared<const CuttingEdges>(plain(cutter), axial_depth, variation)),
+        nonlinear(edges, edge_rule),
+        tables(steps, edges->equal_flutes() ? cutter.flutes : 1),
+        single(steps, 1) {
+    if (!can_be_linear()) return;
+    const int kinds = edges->variable_helix() ? cutter.flutes : 1;
+    for (int flute = 0; flute < kinds; ++flute) {
+      geometries.emplace_back(plain_edges, rows, flute, edge_rule);
     }
-    if (top > 0.0) curved.emplace(cutter, engagement, top);
-    if (top < depth) cylinder.emplace(cutter, engagement, top, depth);
+    for (int flute = 0; flute < cutter.flutes; ++flute) {
+      const bool own = edges->variable_helix();  // its geometry then has its pitch
+      teeth.push_back({own ? static_cast<std::size_t>(flute) : 0,
+                       Angle(edges->flutes()[flute].position),
+                       own ? 1.0 : edges->pitch_ratio(flute, 0.0)});
+    }
   }
 
-  void add_to(SamplingRun& run) const {
-    if (curved) curved->add_to(run);
-    if (cylinder) cylinder->add_to(run);
-    if (discs) discs->add_to(run);
+  bool can_be_linear() const {
+    return !cutter::has_runout(edges->cutter()) && !edges->variation().with_chip();
   }
 
-  AngleTables tables;
-  std::optional<CurvedEdge> curved;
-  std::optional<CylinderEdge> cylinder;
-  std::optional<DiscEdge> discs;
+  int angular_steps;
+  Rows rows;
+  std::shared_ptr<const CuttingEdges> edges;
+  std::shared_ptr<const CuttingEdges> plain_edges;
+  NonlinearForce nonlinear;
+  AngleTables tables;  ///< of all teeth
+  AngleTables single;  ///< of one
+  std::vector<ToothGeometry> geometries;
+  std::vector<Tooth> teeth;
+};
+
+/// What of the geometry depends on the arcs.
+struct ForceSampler::Engaged {
+  Engaged(const Geometry& geometry, std::span<const Arc> all) : arcs(all.begin(), all.end()) {
+    for (const Arc& arc : arcs) {
+      for (const ToothGeometry& tooth : geometry.geometries) {
+        series.emplace_back();
+        for (const SeriesEdge& edge : tooth.series) series.back().push_back(edge.at(arc));
+      }
+    }
+  }
+
+  void add_to(SamplingRun& run, const Geometry& geometry, const Tooth& tooth,
+              const Combination& all) const {
+    const Combination with = all.with_pitch(tooth.pitch_ratio);
+    const ToothGeometry& edge = geometry.geometries[tooth.geometry];
+    run.begin_tooth(tooth.position);
+    for (std::size_t a = 0; a < arcs.size(); ++a) {
+      const auto& prepared = series[a * geometry.geometries.size() + tooth.geometry];
+      for (std::size_t i = 0; i < prepared.size(); ++i) {
+        edge.series[i].add_to(run, with, prepared[i]);
+      }
+      for (const CylinderEdge& cylinder : edge.cylinders) cylinder.add_to(run, with, arcs[a]);
+      if (edge.discs) edge.discs->add_to(run, with, arcs[a]);
+    }
+  }
+
+  std::vector<Arc> arcs;
+  std::vector<std::vector<SeriesEdge::AtArc>> series;  ///< shape (arcs, geometries)
 };
 
 ForceSampler::ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
-                           const EdgeRule& edge_rule, int angular_steps)
-    : angular_steps_(checked_steps(angular_steps)) {
+                           const EdgeRule& edge_rule, int angular_steps, const Variation& variation,
+                           Rows rows) {
+  checked_steps(angular_steps);
   cutter::check(cutter);
   check(cutter, engagement);
   check(edge_rule);
-  geometry_ = std::make_shared<const Geometry>(cutter, engagement, edge_rule, angular_steps);
+  check(variation);
+  geometry_ = std::make_shared<const Geometry>(cutter, engagement.axial_depth, edge_rule,
+                                               angular_steps, variation, rows);
+  const Arc arc = engagement.arc();
+  engaged_ = std::make_shared<const Engaged>(*geometry_, std::span(&arc, 1));
 }
 
-void ForceSampler::sample(const Coefficients& coefficients, double feed_per_tooth,
-                          double feed_direction, std::int64_t first, std::int64_t count,
-                          ForceSamples& out) const {
-  const std::int64_t period = geometry_->tables.period;
+ForceSampler ForceSampler::with_arcs(std::span<const Arc> arcs) const {
+  for (const Arc& arc : arcs) check(arc);
+  ForceSampler other = *this;
+  other.engaged_ = std::make_shared<const Engaged>(*geometry_, arcs);
+  return other;
+}
+
+int ForceSampler::angular_steps() const {
+  return geometry_->angular_steps;
+}
+
+bool ForceSampler::is_linear(const Feed& feed) const {
+  if (!geometry_->can_be_linear()) return false;
+  if (feed.upward() <= 0.0) return true;
+  // Upward the lower side of a curved edge has no chip; a cylinder does not see it.
+  const auto pieces = geometry_->edges->pieces();
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [](const EdgePiece& piece) { return piece.segment.is_cylinder(); });
+}
+
+void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
+                          std::int64_t count, ForceSamples& out) const {
+  is_linear(feed) ? sample_linear(kAllFlutes, coefficients, feed, first, count, out)
+                  : sample_nonlinear(kAllFlutes, coefficients, feed, first, count, out);
+}
+
+void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
+                                std::int64_t first, std::int64_t count, ForceSamples& out) const {
+  is_linear(feed) ? sample_linear(flute, coefficients, feed, first, count, out)
+                  : sample_nonlinear(flute, coefficients, feed, first, count, out);
+}
+
+void ForceSampler::sample_linear(int flute, const Coefficients& coefficients, const Feed& feed,
+                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
+  const AngleTables& tables = flute == kAllFlutes ? geometry_->tables : geometry_->single;
+  const std::int64_t period = tables.period;
   // Whole vectors are written, so there must be room for one that begins at the last sample.
   const std::size_t room = count + kLanes;
   if (out.x.size() < room) out.resize(room);
   const std::array<double*, kRows> rows = {out.x.data(), out.y.data(), out.z.data(),
                                            out.torque.data()};
-  const double direction = std::remainder(feed_direction, 2.0 * core::kPi);
-  const Combination with = {loads(coefficients, feed_per_tooth), std::cos(direction),
-                            std::sin(direction)};
+  const double direction = std::remainder(feed.direction, 2.0 * core::kPi);
+  const Combination with(loads(coefficients, feed), direction, feed.slope != 0.0);
   const std::int64_t begin = ((first % period) + period) % period;
   const std::int64_t fresh = std::min(count, period);
   // The samples of one period are begin .. period - 1 and then 0 .. begin - 1.
   const std::int64_t before_wrap = std::min(fresh, period - begin);
   const auto add_run = [&](std::int64_t from, std::int64_t to, std::int64_t at) {
     if (from >= to) return;
-    SamplingRun run(geometry_->tables, direction, with,
-                    {static_cast<int>(from), static_cast<int>(to)},
+    SamplingRun run(tables, direction, {static_cast<int>(from), static_cast<int>(to)},
                     {rows[0] + at, rows[1] + at, rows[2] + at, rows[3] + at});
-    geometry_->add_to(run);
+    if (flute != kAllFlutes) {
+      engaged_->add_to(run, *geometry_, geometry_->teeth[flute], with);
+    } else if (tables.teeth > 1) {
+      engaged_->add_to(run, *geometry_, geometry_->teeth[0], with);  // one stands for all
+    } else {
+      for (const Tooth& tooth : geometry_->teeth) engaged_->add_to(run, *geometry_, tooth, with);
+    }
     run.finish();
   };
   add_run(begin, begin + before_wrap, 0);
   add_run(0, fresh - before_wrap, before_wrap);
   for (double* row : rows) repeat(row, period, count);
+}
+
+void ForceSampler::sample_nonlinear(int flute, const Coefficients& coefficients, const Feed& feed,
+                                    std::int64_t first, std::int64_t count,
+                                    ForceSamples& out) const {
+  const Geometry& g = *geometry_;
+  const std::int64_t steps = g.angular_steps;
+  if (out.x.size() < static_cast<std::size_t>(count) + kLanes) out.resize(count + kLanes);
+  const double direction = std::remainder(feed.direction, 2.0 * core::kPi);
+  const double c = std::cos(direction), s = std::sin(direction);
+  const int begin = flute == kAllFlutes ? 0 : flute;
+  const int end = flute == kAllFlutes ? g.edges->cutter().flutes : flute + 1;
+  const std::int64_t fresh = std::min(count, steps);
+  for (std::int64_t i = 0; i < fresh; ++i) {
+    const std::int64_t n = (((first + i) % steps) + steps) % steps;
+    const double phi =
+        2.0 * core::kPi * static_cast<double>(n) / static_cast<double>(steps) + direction;
+    std::array<double, kRows> sum{};
+    for (int j = begin; j < end; ++j) {
+      const std::array<double, kRows> force = g.nonlinear.of_flute(
+          j, phi + g.edges->flutes()[j].position, engaged_->arcs, coefficients, feed, g.rows);
+      for (int row = 0; row < kRows; ++row) sum[row] += force[row];
+    }
+    out.x[i] = sum[0] * c - sum[1] * s;
+    out.y[i] = sum[0] * s + sum[1] * c;
+    out.z[i] = sum[2];
+    out.torque[i] = sum[3];
+  }
+  for (std::vector<double>* row : {&out.x, &out.y, &out.z, &out.torque}) {
+    repeat(row->data(), steps, count);
+  }
 }
 
 }  // namespace millstudy::force

@@ -4,20 +4,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cutter/cutter.h"
 #include "force/coefficients.h"
+#include "force/edge.h"
 #include "force/engagement.h"
+#include "force/variation.h"
 
 namespace millstudy::force {
 
 /// Forces on the tool at successive spindle angles, one array a component.
 struct ForceSamples {
-  std::vector<double> x;       ///< [N]
-  std::vector<double> y;       ///< [N]
-  std::vector<double> z;       ///< [N]
-  std::vector<double> torque;  ///< [N mm]
+  std::vector<double> x;       ///< [N]; of Rows::moments the moment about x [N mm]
+  std::vector<double> y;       ///< [N]; the moment about y [N mm]
+  std::vector<double> z;       ///< [N]; zero
+  std::vector<double> torque;  ///< [N mm]; zero
 
   void resize(std::size_t count);
 };
@@ -26,34 +29,53 @@ struct ForceSamples {
 /// every feed direction and every coefficient set.
 ///
 /// Immutable after construction, so one sampler serves any number of threads. A sample has the
-/// same bits however the range it is part of was cut. Agrees with force_basis() to 3e-14 of the
-/// peak (ball: 6e-14), plus what rounding the angle does where a tooth enters within less than
-/// that; a test measures it.
+/// same bits however the range it is part of was cut. Linear cuts, whose chip is in proportion to
+/// the feed, take prepared series and agree with force_basis() to 3e-14 of the peak (series:
+/// 1e-13), plus what rounding the angle does where a tooth enters within less than that; a test
+/// measures it. All others are NonlinearForce, sample by sample.
 class ForceSampler {
  public:
   /// @param angular_steps  S, samples a revolution, 1 .. 1e7
+  /// @param variation      how the coefficients vary along the edge and with the chip
   /// Throws core::InputError for a cutter, engagement, rule or angular_steps out of range.
   ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
-               const EdgeRule& edge_rule, int angular_steps);
+               const EdgeRule& edge_rule, int angular_steps, const Variation& variation = {},
+               Rows rows = Rows::forces);
+
+  /// The same cutter and depth in other arcs, none of which overlap; cheap, for the geometry is
+  /// shared. No arc at all is air.
+  /// Throws core::InputError for an arc out of range.
+  ForceSampler with_arcs(std::span<const Arc> arcs) const;
 
   /// Forces at the spindle angles 2 pi (first + i) / S, i < count, while the feed frame is turned:
-  /// immersion angle = spindle angle + feed_direction; the result is in machine axes.
+  /// immersion angle = spindle angle + feed direction; the result is in machine axes.
   ///
-  /// @param feed_per_tooth  [mm], >= 0
-  /// @param feed_direction  theta, counter-clockwise from machine x [rad], any
-  /// @param first           may run on over revolutions without losing digits; negative is allowed
-  /// @param count           >= 0
-  /// @param out             overwritten from 0; its arrays grow to count + 8 but never shrink, so
-  ///                        that one buffer serves many calls; what is beyond count is of no use
-  void sample(const Coefficients& coefficients, double feed_per_tooth, double feed_direction,
-              std::int64_t first, std::int64_t count, ForceSamples& out) const;
+  /// @param first  may run on over revolutions without losing digits; negative is allowed
+  /// @param count  >= 0
+  /// @param out    overwritten from 0; its arrays grow to count + 8 but never shrink, so that one
+  ///               buffer serves many calls; what is beyond count is of no use
+  void sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
+              std::int64_t count, ForceSamples& out) const;
 
-  int angular_steps() const { return angular_steps_; }
+  /// The same of one flute alone, 0 <= flute < N.
+  void sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
+                    std::int64_t first, std::int64_t count, ForceSamples& out) const;
+
+  /// True if samples of this feed are in proportion to it, and so take the prepared series.
+  bool is_linear(const Feed& feed) const;
+
+  int angular_steps() const;
 
  private:
   struct Geometry;
-  int angular_steps_;
+  struct Engaged;
+  void sample_linear(int flute, const Coefficients& coefficients, const Feed& feed,
+                     std::int64_t first, std::int64_t count, ForceSamples& out) const;
+  void sample_nonlinear(int flute, const Coefficients& coefficients, const Feed& feed,
+                        std::int64_t first, std::int64_t count, ForceSamples& out) const;
+
   std::shared_ptr<const Geometry> geometry_;
+  std::shared_ptr<const Engaged> engaged_;
 };
 
 }  // namespace millstudy::force

@@ -11,9 +11,9 @@
 
 namespace millstudy::force {
 
-AngleTables::AngleTables(int angular_steps, int flute_count)
-    : flutes(flute_count),
-      period(angular_steps / std::gcd(angular_steps, flute_count)),
+AngleTables::AngleTables(int angular_steps, int tooth_count)
+    : teeth(tooth_count),
+      period(angular_steps / std::gcd(angular_steps, tooth_count)),
       step(2.0 * core::kPi / angular_steps),
       steps_per_rad(angular_steps / (2.0 * core::kPi)) {
   const int padded = period + kLanes;
@@ -27,29 +27,30 @@ AngleTables::AngleTables(int angular_steps, int flute_count)
     cos2.push_back((c - s) * (c + s));
     sin2.push_back(2.0 * s * c);
   }
-  for (int q = 0; q < flutes; ++q) {
-    cos_pitch.push_back(std::cos(2.0 * core::kPi * q / flutes));
-    sin_pitch.push_back(std::sin(2.0 * core::kPi * q / flutes));
+  for (int q = 0; q < teeth; ++q) {
+    cos_pitch.push_back(std::cos(2.0 * core::kPi * q / teeth));
+    sin_pitch.push_back(std::sin(2.0 * core::kPi * q / teeth));
   }
 }
 
-SamplingRun::SamplingRun(const AngleTables& tables, double direction, const Combination& with,
-                         IndexRange indices, std::array<double*, kRows> rows)
+SamplingRun::SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+                         std::array<double*, kRows> rows)
     : tables_(tables),
       direction_(direction),
-      with_(with),
-      per_pitch_(0.5 * tables.flutes / core::kPi),
+      per_pitch_(0.5 * tables.teeth / core::kPi),
       indices_(indices),
       rows_(rows) {}
 
 Pass SamplingRun::pass(std::int64_t q) const {
-  const std::int64_t left = q % tables_.flutes;
-  const std::size_t at = left < 0 ? left + tables_.flutes : left;
+  const std::int64_t left = q % tables_.teeth;
+  const std::size_t at = left < 0 ? left + tables_.teeth : left;
+  const double c0 = direction_.cosine * position_.cosine - direction_.sine * position_.sine;
+  const double s0 = direction_.sine * position_.cosine + direction_.cosine * position_.sine;
   const double c = tables_.cos_pitch[at];
   const double s = tables_.sin_pitch[at];
-  return {direction_ + 2.0 * core::kPi * static_cast<double>(q) / tables_.flutes,
-          with_.cos_direction * c - with_.sin_direction * s,
-          with_.sin_direction * c + with_.cos_direction * s};
+  return {
+      direction_.value + position_.value + 2.0 * core::kPi * static_cast<double>(q) / tables_.teeth,
+      c0 * c - s0 * s, s0 * c + c0 * s};
 }
 
 IndexRange SamplingRun::between(const Pass& pass, double from, double to, Closed closed) const {
@@ -147,13 +148,15 @@ void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor&
 
 void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
                                 const std::vector<double>& terms, double sign, double origin,
-                                double length) {
+                                double length, double base) {
   const double from = pass.offset - origin;
+  const double low = std::sqrt(base);
+  const double scale = 2.0 / (std::sqrt(base + 1.0) - low);
   accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
     const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
     const Lanes part = d / length;
     const Lanes inside = part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
-    const Lanes t = 2.0 * square_root(inside) - 1.0;
+    const Lanes t = scale * (square_root(base + inside) - low) - 1.0;
     const Lanes twice = 2.0 * t;
     // Clenshaw's recurrence, four series abreast.
     Lanes x1{}, y1{}, z1{}, torque1{};

@@ -10,20 +10,29 @@
 
 namespace millstudy::force {
 
+/// An angle with its cosine and sine.
+struct Angle {
+  explicit Angle(double angle) : value(angle), cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  double value;  ///< [rad]
+  double cosine;
+  double sine;
+};
+
 /// Cosines and sines of 2 pi n / S and of its double, for the n after which the force repeats,
 /// padded by one vector.
 struct AngleTables {
-  AngleTables(int angular_steps, int flutes);
+  /// @param teeth  that are alike and equally spaced: the force repeats so often in a revolution
+  AngleTables(int angular_steps, int teeth);
 
-  int flutes;
-  int period;   ///< S / gcd(S, flutes): the force at n and n + period is the same
+  int teeth;
+  int period;   ///< S / gcd(S, teeth): the force at n and n + period is the same
   double step;  ///< 2 pi / S [rad]
   double steps_per_rad;
   std::vector<double> cos1;
   std::vector<double> sin1;
   std::vector<double> cos2;
   std::vector<double> sin2;
-  std::vector<double> cos_pitch;  ///< of 2 pi q / flutes, shape (flutes)
+  std::vector<double> cos_pitch;  ///< of 2 pi q / teeth, shape (teeth)
   std::vector<double> sin_pitch;
 };
 
@@ -51,14 +60,15 @@ class SamplingRun {
  public:
   using Row = Harmonics::Row;
 
-  /// @param direction  feed direction theta [rad], reduced to +-pi; with carries its sine, cosine
+  /// @param direction  feed direction theta [rad], reduced to +-pi
   /// @param rows       x, y, z, torque of index `first`: last - first values, to be overwritten,
   ///                   and then room for one vector
-  SamplingRun(const AngleTables& tables, double direction, const Combination& with,
-              IndexRange indices, std::array<double*, kRows> rows);
+  SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+              std::array<double*, kRows> rows);
 
-  /// What the call combines the geometry with.
-  const Combination& with() const { return with_; }
+  /// The teeth that follow stand at this angle ahead of the tip of flute 0, and at all angles that
+  /// differ from it by the pitch of equal teeth.
+  void begin_tooth(const Angle& position) { position_ = position; }
 
   /// To be called when all is added: makes samples zero that nothing was added to.
   void finish();
@@ -69,10 +79,10 @@ class SamplingRun {
   void for_each_pass(double from, double to, const Visit& visit) const {
     constexpr double kMargin = 1e-9;  // an empty pass too many does no harm
     const double whole = tables_.step * tables_.period;
+    const double zero = direction_.value + position_.value;
     const auto first =
-        static_cast<std::int64_t>(std::ceil((from - direction_ - whole) * per_pitch_ - kMargin));
-    const auto last =
-        static_cast<std::int64_t>(std::floor((to - direction_) * per_pitch_ + kMargin));
+        static_cast<std::int64_t>(std::ceil((from - zero - whole) * per_pitch_ - kMargin));
+    const auto last = static_cast<std::int64_t>(std::floor((to - zero) * per_pitch_ + kMargin));
     for (std::int64_t q = first; q <= last; ++q) visit(pass(q));
   }
 
@@ -92,9 +102,10 @@ class SamplingRun {
   void add_taylor(const Pass& pass, IndexRange indices, const Taylor& terms, double sign,
                   double origin);
 
-  /// Adds sum_m terms[4 m + row] T_m(2 sqrt(d / length) - 1), d = sign (tip angle - origin).
+  /// Adds sum_m terms[4 m + row] T_m(t), t going from -1 to 1 with sqrt(base + d / length), where
+  /// d = sign (tip angle - origin) goes from 0 to length.
   void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
-                     double sign, double origin, double length);
+                     double sign, double origin, double length, double base);
 
  private:
   Pass pass(std::int64_t q) const;
@@ -106,8 +117,8 @@ class SamplingRun {
   void accumulate(IndexRange indices, const Evaluate& evaluate);
 
   const AngleTables& tables_;
-  double direction_;
-  const Combination& with_;
+  Angle direction_;
+  Angle position_{0.0};
   double per_pitch_;
   IndexRange indices_;
   std::array<double*, kRows> rows_;

@@ -127,7 +127,7 @@ double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& en
   const double steepest =
       std::clamp(0.5 * core::kPi, engagement.entry_angle, engagement.exit_angle);
   return feed_per_tooth * std::sin(steepest) *
-         cutter::largest_sin_kappa(cutter, engagement.axial_depth);
+         cutter::largest_sin_kappa(cutter::Envelope(cutter), engagement.axial_depth);
 }
 
 }  // namespace millstudy::force

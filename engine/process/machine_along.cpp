@@ -58,7 +58,8 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
     const std::int64_t end = first_sample_of_period(i + 1, samples_per_period);
     for (std::int64_t first = first_sample_of_period(i, samples_per_period); first < end;) {
       const std::int64_t count = std::min(kBatch, end - first);
-      sampler.sample(machining.coefficients, feed_per_tooth, feed_direction, first, count, samples);
+      sampler.sample(machining.coefficients, {feed_per_tooth, feed_direction}, first, count,
+                     samples);
       statistics.add(samples, count);
       if (observer) observer(first, count, samples);
       result.samples += count;

@@ -63,7 +63,7 @@ double disc_samples(const Case& point) {
 double material_removal_rate(const Case& point) {
   // Width swept at height z is r(z) (cos entry - cos exit) = 2 r(z) immersion.
   return feed_rate(point) * 2.0 * radial_immersion(point) *
-         cutter::section_area(point.cutter, point.cut.axial_depth);
+         cutter::section_area(cutter::Envelope(point.cutter), point.cut.axial_depth);
 }
 
 }  // namespace millstudy::study

@@ -12,21 +12,20 @@ void check(const Given& given, const Case& base, Faults& faults) {
 }
 
 EvaluatePoint make_evaluator() {
-  return
-      [samplers = SharedSamplers()](const Case& point, std::span<double> row, sweep::Trace* trace) {
-        check_feed(point);
-        const force::Engagement engaged = engagement(point);
-        const auto sampler = samplers.get(point, engaged);
-        force::ForceSamples samples;
-        sampler->sample(point.coefficients, feed_per_tooth(point), 0.0, 0, point.angular_steps,
-                        samples);
-        force::StatisticsAccumulator statistics;
-        statistics.add(samples, point.angular_steps);
-        fill_force_row(point, statistics.result(),
-                       force::largest_chip_thickness(point.cutter, engaged, feed_per_tooth(point)),
-                       row);
-        if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
-      };
+  return [samplers = SharedSamplers()](const Case& point, std::span<double> row,
+                                       sweep::Trace* trace) {
+    check_feed(point);
+    const force::Engagement engaged = engagement(point);
+    const auto sampler = samplers.get(point, engaged);
+    force::ForceSamples samples;
+    sampler->sample(point.coefficients, {feed_per_tooth(point)}, 0, point.angular_steps, samples);
+    force::StatisticsAccumulator statistics;
+    statistics.add(samples, point.angular_steps);
+    fill_force_row(point, statistics.result(),
+                   force::largest_chip_thickness(point.cutter, engaged, feed_per_tooth(point)),
+                   row);
+    if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
+  };
 }
 
 }  // namespace

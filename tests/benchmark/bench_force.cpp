@@ -53,7 +53,7 @@ void sampler(benchmark::State& state, cutter::Shape shape, double depth, force::
   const force::ForceSampler sampler(haber(shape), force::slot(depth), rule, kSteps);
   force::ForceSamples samples;
   for (auto _ : state) {
-    sampler.sample(kGgg70, kFeed, 0.0, 0, kSteps, samples);
+    sampler.sample(kGgg70, {kFeed}, 0, kSteps, samples);
     benchmark::DoNotOptimize(samples.x.data());
     benchmark::ClobberMemory();
   }
@@ -66,7 +66,7 @@ void period(benchmark::State& state, cutter::Shape shape, double depth) {
   force::StatisticsAccumulator statistics;
   std::int64_t first = 0;
   for (auto _ : state) {
-    sampler.sample(kGgg70, kFeed, 1e-3 * static_cast<double>(first), first, 174, samples);
+    sampler.sample(kGgg70, {kFeed, 1e-3 * static_cast<double>(first)}, first, 174, samples);
     statistics.add(samples, 174);
     first += 174;
     benchmark::ClobberMemory();
@@ -78,7 +78,7 @@ void cold(benchmark::State& state, cutter::Shape shape, double depth) {
   for (auto _ : state) {
     const force::ForceSampler sampler(haber(shape), force::slot(depth), {}, kSteps);
     force::ForceSamples samples;
-    sampler.sample(kGgg70, kFeed, 0.0, 0, kSteps, samples);
+    sampler.sample(kGgg70, {kFeed}, 0, kSteps, samples);
     benchmark::DoNotOptimize(samples.x.data());
     benchmark::ClobberMemory();
   }
@@ -93,7 +93,7 @@ bool baseline_agrees(double depth) {
       .revolution(kGgg70, kFeed, x.data(), y.data(), z.data());
   force::ForceSamples exact;
   force::ForceSampler(cutter, force::slot(depth), {}, kSteps)
-      .sample(kGgg70, kFeed, 0.0, 0, kSteps, exact);
+      .sample(kGgg70, {kFeed}, 0, kSteps, exact);
   double peak = 0.0, off = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     peak = std::max({peak, std::abs(exact.x[i]), std::abs(exact.y[i])});

@@ -15,7 +15,7 @@ int main() {
   constexpr int kSteps = 3600;
   const force::ForceSampler sampler(mill, force::slot(0.5), force::EdgeRule{}, kSteps);
   force::ForceSamples samples;
-  sampler.sample(ggg70, 0.06, 0.0, 0, kSteps, samples);
+  sampler.sample(ggg70, {0.06}, 0, kSteps, samples);
   force::StatisticsAccumulator statistics;
   statistics.add(samples, kSteps);
   std::printf("mean resultant: %.4f N\n", statistics.result().resultant.mean);

@@ -83,7 +83,7 @@ inline Case random_case(std::mt19937_64& random, cutter::Shape shape) {
 using Force = std::array<double, kRows>;
 
 inline Force exact_force(const Case& c, double phi) {
-  return evaluate(force_basis(c.cutter, c.engagement, {}, phi), c.coefficients, c.feed_per_tooth);
+  return evaluate(force_basis(c.cutter, c.engagement, {}, phi), c.coefficients, {c.feed_per_tooth});
 }
 
 /// Largest row of a - b, each against its own scale: forces [N], torque [N mm] over the radius.

@@ -56,10 +56,10 @@ TEST(EdgeForce, IsLinearInCoefficientsAndFeed) {
     const Coefficients sum{a.Ktc + b.Ktc, a.Krc + b.Krc, a.Kac + b.Kac,
                            a.Kte + b.Kte, a.Kre + b.Kre, a.Kae + b.Kae};
     const Coefficients chip_twice{2 * a.Ktc, 2 * a.Krc, 2 * a.Kac, a.Kte, a.Kre, a.Kae};
-    const Force fa = evaluate(basis, a, 0.1), fb = evaluate(basis, b, 0.1);
-    const Force together = evaluate(basis, sum, 0.1);
-    const Force fed_twice = evaluate(basis, a, 0.2);
-    const Force loaded_twice = evaluate(basis, chip_twice, 0.1);
+    const Force fa = evaluate(basis, a, {0.1}), fb = evaluate(basis, b, {0.1});
+    const Force together = evaluate(basis, sum, {0.1});
+    const Force fed_twice = evaluate(basis, a, {0.2});
+    const Force loaded_twice = evaluate(basis, chip_twice, {0.1});
     for (int row = 0; row < kRows; ++row) {
       const double scale = 1.0 + std::abs(fa[row]) + std::abs(fb[row]) +
                            c.engagement.axial_depth * c.cutter.diameter * 100.0;
@@ -83,7 +83,7 @@ TEST(EdgeForce, IsZeroOutOfCutAndNowhereElse) {
     const double in = uniform(random, from + 1e-6 * (to - from), to - 1e-6 * (to - from));
     for (const EdgeRule& rule : {EdgeRule{}, EdgeRule{Rule::discs, 20}}) {
       const ForceBasis idle = force_basis(c.cutter, c.engagement, rule, out);
-      EXPECT_EQ(distance(evaluate(idle, c.coefficients, 0.1), Force{}, 1.0), 0.0) << c << out;
+      EXPECT_EQ(distance(evaluate(idle, c.coefficients, {0.1}), Force{}, 1.0), 0.0) << c << out;
     }
     EXPECT_GT(distance(exact_force(c, in), Force{}, 1.0), 0.0) << c << in;
   }

@@ -27,7 +27,7 @@ Force sample_at(const ForceSamples& samples, std::size_t i) {
 /// The reference kernel in a feed frame turned by theta, back in machine axes.
 Force turned_force(const Case& c, const EdgeRule& rule, double spindle_angle, double theta) {
   const ForceBasis basis = force_basis(c.cutter, c.engagement, rule, spindle_angle + theta);
-  const Force f = evaluate(basis, c.coefficients, c.feed_per_tooth);
+  const Force f = evaluate(basis, c.coefficients, {c.feed_per_tooth});
   return {f[0] * std::cos(theta) - f[1] * std::sin(theta),
           f[0] * std::sin(theta) + f[1] * std::cos(theta), f[2], f[3]};
 }
@@ -40,7 +40,7 @@ Force turned_force(const Case& c, const EdgeRule& rule, double spindle_angle, do
 double disagreement(const Case& c, const EdgeRule& rule, int steps, double theta) {
   ForceSamples samples;
   ForceSampler(c.cutter, c.engagement, rule, steps)
-      .sample(c.coefficients, c.feed_per_tooth, theta, 0, steps, samples);
+      .sample(c.coefficients, {c.feed_per_tooth, theta}, 0, steps, samples);
   const double radius = cutter::radius(c.cutter);
   double peak = 0.0;
   double worst = 0.0;
@@ -113,7 +113,7 @@ TEST(ForceSampler, CountsOneToothOfTwoInASlotWithoutHelix) {
         const cutter::Cutter cutter{cutter::Shape::flat, 12.0, 2, hand * 1e-300};
         ForceSamples samples;
         ForceSampler(cutter, slot(1.0), {rule, 10}, steps)
-            .sample({0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 0.1, 0.0, 0, steps, samples);
+            .sample({0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, {0.1}, 0, steps, samples);
         for (int i = 0; i < steps; ++i) {
           EXPECT_NEAR(samples.z[i], -1.0, 1e-14) << i << " of " << steps;
           const ForceBasis basis =
@@ -144,10 +144,10 @@ TEST(ForceSampler, SamplesInPiecesAreThoseAtOnceBitForBit) {
     const std::int64_t first = static_cast<std::int64_t>(random() % 2000) - 1000;
     const std::int64_t count = 1 + static_cast<std::int64_t>(random() % 900);
     ForceSamples whole, piece;
-    sampler.sample(c.coefficients, c.feed_per_tooth, 0.7, first, count, whole);
+    sampler.sample(c.coefficients, {c.feed_per_tooth, 0.7}, first, count, whole);
     for (std::int64_t done = 0; done < count;) {
       const std::int64_t part = std::min<std::int64_t>(count - done, random() % 60);
-      sampler.sample(c.coefficients, c.feed_per_tooth, 0.7, first + done, part, piece);
+      sampler.sample(c.coefficients, {c.feed_per_tooth, 0.7}, first + done, part, piece);
       ASSERT_TRUE(same_bits(whole, done, piece, 0, part)) << c << " at " << done;
       done += part;
     }
@@ -158,8 +158,8 @@ TEST(ForceSampler, LosesNothingAsTheSpindleAngleRunsOn) {
   const cutter::Cutter cutter = testing::haber_cutter(cutter::Shape::flat);
   const ForceSampler sampler(cutter, slot(0.5), {}, 360);
   ForceSamples near, far;
-  sampler.sample(testing::kGgg70, 0.06, 0.3, 5, 360, near);
-  sampler.sample(testing::kGgg70, 0.06, 0.3, 5 + 360 * std::int64_t{1'000'000'000'000}, 360, far);
+  sampler.sample(testing::kGgg70, {0.06, 0.3}, 5, 360, near);
+  sampler.sample(testing::kGgg70, {0.06, 0.3}, 5 + 360 * std::int64_t{1'000'000'000'000}, 360, far);
   EXPECT_TRUE(same_bits(near, 0, far, 0, 360));
 }
 
@@ -170,8 +170,9 @@ TEST(ForceSampler, GivesTheSameBitsOnEveryThread) {
   std::vector<ForceSamples> results(4);
   std::vector<std::thread> threads;
   for (ForceSamples& result : results) {
-    threads.emplace_back(
-        [&] { sampler.sample(c.coefficients, c.feed_per_tooth, 1.1, 3, 2000, result); });
+    threads.emplace_back([&] {
+      sampler.sample(c.coefficients, {c.feed_per_tooth, 1.1}, 3, 2000, result);
+    });
   }
   for (std::thread& thread : threads) thread.join();
   for (const ForceSamples& result : results) {

@@ -16,8 +16,7 @@ using testing::kGgg70;
 ForceStatistics revolution(const cutter::Cutter& cutter, const Engagement& engagement,
                            const EdgeRule& rule, double feed_per_tooth, int steps) {
   ForceSamples samples;
-  ForceSampler(cutter, engagement, rule, steps)
-      .sample(kGgg70, feed_per_tooth, 0.0, 0, steps, samples);
+  ForceSampler(cutter, engagement, rule, steps).sample(kGgg70, {feed_per_tooth}, 0, steps, samples);
   StatisticsAccumulator statistics;
   statistics.add(samples, steps);
   return statistics.result();

@@ -34,7 +34,7 @@ TEST(MachineAlong, OnAStraightPathIsThePlainForce) {
   // 174 samples a period: 360 periods are 174 whole revolutions. 29 mm/s is 0.06 mm per tooth.
   const PathForces along = machine_along(straight(360, 0.058, 0.0), bench.sampler, bench.machining);
   force::ForceSamples samples;
-  bench.sampler.sample(kGgg70, 0.06, 0.0, 0, 360, samples);
+  bench.sampler.sample(kGgg70, {0.06}, 0, 360, samples);
   force::StatisticsAccumulator revolution;
   revolution.add(samples, 360);
   const force::ForceStatistics plain = revolution.result();
