@@ -29,14 +29,11 @@ class RegimeFinder {
     const double lag = edges_.envelope().lag(z);
     law_.find(flute_, z, lag, at_point_);
     sin_phi_ = std::sin(tip_angle_ - tangent_ * lag);
-    if (piece_.segment.is_arc) {
-      const double kappa = piece_.segment.kappa_at(z);
-      sin_kappa_ = std::sin(kappa);
-      cos_kappa_ = std::cos(kappa);
-    } else {
-      sin_kappa_ = 1.0 / std::sqrt(1.0 + piece_.segment.slope * piece_.segment.slope);
-      cos_kappa_ = piece_.segment.slope * sin_kappa_;
-    }
+    // In the plane all reaches have the factor sin(kappa), which is left out: it is zero at a tip.
+    if (feed_.slope == 0.0) return;
+    const double kappa = piece_.segment.kappa_at(z);
+    sin_kappa_ = std::sin(kappa);
+    cos_kappa_ = std::cos(kappa);
   }
 
   double value(int m) const {

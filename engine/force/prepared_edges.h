@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "force/chip_law.h"
 #include "force/edge.h"
+#include "force/edge_moments.h"
 #include "force/engagement.h"
 #include "force/harmonics.h"
 #include "force/sampling_run.h"
@@ -62,12 +64,32 @@ class SeriesEdge {
  private:
   PreparedRows series_at(double limit) const;
 
+  Rows rows_;
   double hand_;
-  double shift_;         ///< immersion angle of the tip less that of the lower end [rad]
-  double lag_;           ///< of the upper end behind the lower [rad], > 0
-  double base_;          ///< where the series begin in the root, see SamplingRun::add_chebyshev()
+  double shift_;  ///< immersion angle of the tip less that of the lower end [rad]
+  double lag_;    ///< of the upper end behind the lower [rad], > 0
+  MomentSeries series_;
   HarmonicBasis whole_;  ///< in the angle of the tip
-  std::array<PreparedRows, kHarmonics> series_;  ///< of U_b(l), harmonics of b
+};
+
+/// Any piece of teeth whose axis is offset from the spindle's, (F25): of flutes that have one helix
+/// angle, without tilt, fed in the plane.
+class RunoutEdge {
+ public:
+  /// @param edges  of the cutter without its runout and pitch
+  RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece);
+
+  /// Adds all flutes, or one.
+  /// @param edges  of the cutter as it is
+  void add_to(SamplingRun& run, const CuttingEdges& edges, int flute, const Coefficients& k,
+              const Feed& feed, const Arc& arc) const;
+
+ private:
+  Rows rows_;
+  double hand_;
+  double shift_;  ///< immersion angle of the tip less that of the lower end [rad]
+  double lag_;    ///< of the upper end behind the lower [rad], > 0
+  MomentSeries series_;
 };
 
 /// Equal-height discs (F12).

@@ -35,10 +35,9 @@ void repeat(double* values, std::int64_t period, std::int64_t count) {
   }
 }
 
-/// The cutter without what pitch and runout do to it: one flute of it stands for all that have its
-/// helix angle.
+/// The cutter without what pitch does to it: one flute of it stands for all that have its helix
+/// angle.
 cutter::Cutter plain(cutter::Cutter cutter) {
-  cutter.runout = {};
   if (cutter::has_variable_helix(cutter)) return cutter;
   cutter.pitch_angles.clear();
   return cutter;
@@ -89,8 +88,12 @@ struct ForceSampler::Geometry {
         edges(std::make_shared<const CuttingEdges>(cutter, axial_depth, variation)),
         plain_edges(std::make_shared<const CuttingEdges>(plain(cutter), axial_depth, variation)),
         nonlinear(edges, edge_rule),
-        tables(steps, edges->equal_flutes() ? cutter.flutes : 1),
-        single(steps, 1) {
+        tables(steps, edges->equal_flutes() ? cutter.flutes : 1) {
+    if (takes_runout_edges(edge_rule)) {
+      for (const EdgePiece& piece : plain_edges->pieces()) {
+        runout.emplace_back(*plain_edges, rows, piece);
+      }
+    }
     if (!can_be_linear()) return;
     const int kinds = edges->variable_helix() ? cutter.flutes : 1;
     for (int flute = 0; flute < kinds; ++flute) {
@@ -108,15 +111,25 @@ struct ForceSampler::Geometry {
     return !cutter::has_runout(edges->cutter()) && !edges->variation().with_chip();
   }
 
+  /// Runout with all that makes its chips linear in cot(phi), (F23); beyond so many flutes their
+  /// pairs would take longer than the integral.
+  bool takes_runout_edges(const EdgeRule& edge_rule) const {
+    constexpr int kMostFlutes = 16;
+    return cutter::has_runout(edges->cutter()) && edges->cutter().runout.tilt == 0.0 &&
+           !edges->variable_helix() && !edges->variation().with_chip() &&
+           edge_rule.rule == Rule::exact && edges->cutter().flutes <= kMostFlutes;
+  }
+
   int angular_steps;
   Rows rows;
   std::shared_ptr<const CuttingEdges> edges;
   std::shared_ptr<const CuttingEdges> plain_edges;
   NonlinearForce nonlinear;
   AngleTables tables;  ///< of all teeth
-  AngleTables single;  ///< of one
+
   std::vector<ToothGeometry> geometries;
   std::vector<Tooth> teeth;
+  std::vector<RunoutEdge> runout;
 };
 
 /// What of the geometry depends on the arcs.
@@ -185,19 +198,49 @@ bool ForceSampler::is_linear(const Feed& feed) const {
 
 void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
                           std::int64_t count, ForceSamples& out) const {
-  is_linear(feed) ? sample_linear(kAllFlutes, coefficients, feed, first, count, out)
-                  : sample_nonlinear(kAllFlutes, coefficients, feed, first, count, out);
+  sample_flute(kAllFlutes, coefficients, feed, first, count, out);
 }
 
 void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
-  is_linear(feed) ? sample_linear(flute, coefficients, feed, first, count, out)
-                  : sample_nonlinear(flute, coefficients, feed, first, count, out);
+  const bool prepared = !geometry_->runout.empty() && feed.slope == 0.0;
+  prepared || is_linear(feed) ? sample_prepared(flute, coefficients, feed, first, count, out)
+                              : sample_nonlinear(flute, coefficients, feed, first, count, out);
 }
 
-void ForceSampler::sample_linear(int flute, const Coefficients& coefficients, const Feed& feed,
-                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
-  const AngleTables& tables = flute == kAllFlutes ? geometry_->tables : geometry_->single;
+void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
+                          const Feed& feed) const {
+  const Geometry& g = *geometry_;
+  if (!g.runout.empty()) {
+    const int last = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
+    for (int j = flute == kAllFlutes ? 0 : flute; j <= last; ++j) {
+      for (const Arc& arc : engaged_->arcs) {
+        for (const RunoutEdge& edge : g.runout) {
+          edge.add_to(run, *g.edges, j, coefficients, feed, arc);
+        }
+      }
+    }
+    return;
+  }
+  const Combination with(loads(coefficients, feed), std::remainder(feed.direction, 2.0 * core::kPi),
+                         feed.slope != 0.0);
+  if (flute != kAllFlutes) {
+    engaged_->add_to(run, g, g.teeth[flute], with);
+  } else if (run.tables().teeth > 1) {
+    engaged_->add_to(run, g, g.teeth[0], with);  // one stands for all
+  } else {
+    for (const Tooth& tooth : g.teeth) engaged_->add_to(run, g, tooth, with);
+  }
+}
+
+void ForceSampler::sample_prepared(int flute, const Coefficients& coefficients, const Feed& feed,
+                                   std::int64_t first, std::int64_t count,
+                                   ForceSamples& out) const {
+  std::optional<AngleTables> single;  // of one flute, where the geometry has those of all
+  if (flute != kAllFlutes && geometry_->tables.teeth > 1) {
+    single.emplace(geometry_->angular_steps, 1);
+  }
+  const AngleTables& tables = single ? *single : geometry_->tables;
   const std::int64_t period = tables.period;
   // Whole vectors are written, so there must be room for one that begins at the last sample.
   const std::size_t room = count + kLanes;
@@ -205,7 +248,6 @@ void ForceSampler::sample_linear(int flute, const Coefficients& coefficients, co
   const std::array<double*, kRows> rows = {out.x.data(), out.y.data(), out.z.data(),
                                            out.torque.data()};
   const double direction = std::remainder(feed.direction, 2.0 * core::kPi);
-  const Combination with(loads(coefficients, feed), direction, feed.slope != 0.0);
   const std::int64_t begin = ((first % period) + period) % period;
   const std::int64_t fresh = std::min(count, period);
   // The samples of one period are begin .. period - 1 and then 0 .. begin - 1.
@@ -214,13 +256,7 @@ void ForceSampler::sample_linear(int flute, const Coefficients& coefficients, co
     if (from >= to) return;
     SamplingRun run(tables, direction, {static_cast<int>(from), static_cast<int>(to)},
                     {rows[0] + at, rows[1] + at, rows[2] + at, rows[3] + at});
-    if (flute != kAllFlutes) {
-      engaged_->add_to(run, *geometry_, geometry_->teeth[flute], with);
-    } else if (tables.teeth > 1) {
-      engaged_->add_to(run, *geometry_, geometry_->teeth[0], with);  // one stands for all
-    } else {
-      for (const Tooth& tooth : geometry_->teeth) engaged_->add_to(run, *geometry_, tooth, with);
-    }
+    add_to(run, flute, coefficients, feed);
     run.finish();
   };
   add_run(begin, begin + before_wrap, 0);

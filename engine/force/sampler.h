@@ -15,6 +15,8 @@
 
 namespace millstudy::force {
 
+class SamplingRun;
+
 /// Forces on the tool at successive spindle angles, one array a component.
 struct ForceSamples {
   std::vector<double> x;       ///< [N]; of Rows::moments the moment about x [N mm]
@@ -69,8 +71,10 @@ class ForceSampler {
  private:
   struct Geometry;
   struct Engaged;
-  void sample_linear(int flute, const Coefficients& coefficients, const Feed& feed,
-                     std::int64_t first, std::int64_t count, ForceSamples& out) const;
+  void add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
+              const Feed& feed) const;
+  void sample_prepared(int flute, const Coefficients& coefficients, const Feed& feed,
+                       std::int64_t first, std::int64_t count, ForceSamples& out) const;
   void sample_nonlinear(int flute, const Coefficients& coefficients, const Feed& feed,
                         std::int64_t first, std::int64_t count, ForceSamples& out) const;
 

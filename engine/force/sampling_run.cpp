@@ -74,27 +74,6 @@ void SamplingRun::finish() {
   if (!written_) put_zeros(indices_);
 }
 
-template <class Evaluate>
-[[gnu::always_inline]] inline void SamplingRun::accumulate(IndexRange indices,
-                                                           const Evaluate& evaluate) {
-  if (indices.first >= indices.last) return;
-  const bool first = !written_;
-  for (int n = indices.first; n < indices.last; n += kLanes) {
-    const int count = indices.last - n;
-    const int at = n - indices_.first;
-    Lanes x, y, z, torque;
-    evaluate(n, x, y, z, torque);
-    add_to(rows_[0] + at, x, count, first);
-    add_to(rows_[1] + at, y, count, first);
-    add_to(rows_[2] + at, z, count, first);
-    add_to(rows_[3] + at, torque, count, first);
-  }
-  if (!first) return;
-  put_zeros({indices_.first, indices.first});
-  put_zeros({indices.last, indices_.last});
-  written_ = true;
-}
-
 void SamplingRun::add(const Pass& pass, IndexRange indices, const Harmonics& force) {
   if (indices.first >= indices.last) return;
   const Harmonics p = shifted(force, pass.cosine, pass.sine);

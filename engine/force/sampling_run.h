@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "force/harmonics.h"
+#include "force/lanes.h"
 
 namespace millstudy::force {
 
@@ -86,6 +87,13 @@ class SamplingRun {
     for (std::int64_t q = first; q <= last; ++q) visit(pass(q));
   }
 
+  const AngleTables& tables() const { return tables_; }
+
+  /// Runs evaluate(n, x, y, z, torque) over indices and adds the lanes it fills in. The first to
+  /// come writes and puts zeros around it: most of a revolution is then touched once, not twice.
+  template <class Evaluate>
+  void accumulate(IndexRange indices, const Evaluate& evaluate);
+
   /// Indices of the run at which the tip of a pass is between two angles [rad].
   IndexRange between(const Pass& pass, double from, double to, Closed closed) const;
 
@@ -111,11 +119,6 @@ class SamplingRun {
   Pass pass(std::int64_t q) const;
   void put_zeros(IndexRange indices);
 
-  /// Runs evaluate(n, x, y, z, torque) over indices and adds the lanes it fills in. The first to
-  /// come writes and puts zeros around it: most of a revolution is then touched once, not twice.
-  template <class Evaluate>
-  void accumulate(IndexRange indices, const Evaluate& evaluate);
-
   const AngleTables& tables_;
   Angle direction_;
   Angle position_{0.0};
@@ -124,5 +127,26 @@ class SamplingRun {
   std::array<double*, kRows> rows_;
   bool written_ = false;
 };
+
+template <class Evaluate>
+[[gnu::always_inline]] inline void SamplingRun::accumulate(IndexRange indices,
+                                                           const Evaluate& evaluate) {
+  if (indices.first >= indices.last) return;
+  const bool first = !written_;
+  for (int n = indices.first; n < indices.last; n += kLanes) {
+    const int count = indices.last - n;
+    const int at = n - indices_.first;
+    Lanes x, y, z, torque;
+    evaluate(n, x, y, z, torque);
+    add_to(rows_[0] + at, x, count, first);
+    add_to(rows_[1] + at, y, count, first);
+    add_to(rows_[2] + at, z, count, first);
+    add_to(rows_[3] + at, torque, count, first);
+  }
+  if (!first) return;
+  put_zeros({indices_.first, indices.first});
+  put_zeros({indices.last, indices_.last});
+  written_ = true;
+}
 
 }  // namespace millstudy::force

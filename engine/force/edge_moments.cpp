@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "force/edge_moments.h"
+
+#include <algorithm>
+
+#include "core/units.h"
+
+namespace millstudy::force {
+namespace {
+
+constexpr double kNegligible = 1e-16;
+
+/// How a load on a column turns into rows: a force in the plane of -exp(-i phi) times the planar
+/// weight, turned by a quarter for r and a; and along the axis, of t the torque, of r and a z.
+struct Weights {
+  std::array<double, kColumns> planar;
+  std::array<double, kColumns> axial;
+};
+
+/// (F4) and (F20) in these terms: the moment about the tip is i z times the planar force plus
+/// r exp(-i phi) times the axial one.
+Weights weights_of(Rows rows, const EdgeNode& n) {
+  if (rows == Rows::moments) {
+    return {{n.z, n.z * n.sin_kappa + n.radius * n.cos_kappa,
+             n.z * n.cos_kappa - n.radius * n.sin_kappa},
+            {}};
+  }
+  return {{1.0, n.sin_kappa, n.cos_kappa}, {n.radius, n.cos_kappa, -n.sin_kappa}};
+}
+
+void rotate(double& c, double& s, double cosine, double sine) {
+  const double turned = c * cosine - s * sine;
+  s = s * cosine + c * sine;
+  c = turned;
+}
+
+}  // namespace
+
+void EdgeMoments::add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
+                      double delta) {
+  const Weights weights = weights_of(rows, node);
+  const std::array<double, 6> factors = edges.factors(flute, node);
+  const double ratio = edges.pitch_ratio(flute, node.lag);
+  const double area = ratio * node.sin_kappa * node.width;
+  const double plunge_area = -ratio * node.cos_kappa * node.width;
+  const double c1 = std::cos(delta), s1 = std::sin(delta);
+  const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
+  for (int q = 0; q < kColumns; ++q) {
+    const double planar = weights.planar[q], axial = weights.axial[q];
+    const double chip_load = area * factors[q];
+    const double edge_load = node.length * factors[kColumns + q];
+    const double plunge_load = plunge_area * factors[q];
+    double* chip = &values_[kChip * q];
+    chip[0] += chip_load * planar;
+    chip[1] += chip_load * planar * c2;
+    chip[2] += chip_load * planar * s2;
+    chip[3] += chip_load * axial * c1;
+    chip[4] += chip_load * axial * s1;
+    double* edge = &values_[kEdge + kStill * q];
+    edge[0] += edge_load * planar * c1;
+    edge[1] += edge_load * planar * s1;
+    edge[2] += edge_load * axial;
+    double* plunge = &values_[kPlunge + kStill * q];
+    plunge[0] += plunge_load * planar * c1;
+    plunge[1] += plunge_load * planar * s1;
+    plunge[2] += plunge_load * axial;
+  }
+}
+
+void EdgeMoments::turn(double lag) {
+  // delta, negative for places below the point of a right-hand edge, falls by the lag.
+  const double c1 = std::cos(lag), s1 = -std::sin(lag);
+  const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
+  for (int q = 0; q < kColumns; ++q) {
+    double* chip = &values_[kChip * q];
+    rotate(chip[1], chip[2], c2, s2);
+    rotate(chip[3], chip[4], c1, s1);
+    rotate(values_[kEdge + kStill * q], values_[kEdge + kStill * q + 1], c1, s1);
+    rotate(values_[kPlunge + kStill * q], values_[kPlunge + kStill * q + 1], c1, s1);
+  }
+}
+
+Basis<double> EdgeMoments::basis(Rows rows, double cos_b, double sin_b) const {
+  const double cos_2b = cos_b * cos_b - sin_b * sin_b, sin_2b = 2.0 * sin_b * cos_b;
+  Basis<double> basis;
+  const auto put = [&](Matrix43<double>& to, int q, double x, double y, double axial) {
+    if (q != 0) {  // r and a stand a quarter turn from t
+      const double turned = -y;
+      y = x;
+      x = turned;
+    }
+    if (rows == Rows::moments) {  // times i once more
+      const double turned = -y;
+      y = x;
+      x = turned;
+    }
+    to[0][q] = x;
+    to[1][q] = y;
+    to[q == 0 ? 3 : 2][q] = axial;
+  };
+  for (int q = 0; q < kColumns; ++q) {
+    // -sin(phi) exp(-i phi) = i/2 (1 - exp(-2 i b) exp(2 i delta))
+    const double real = chip(q, 0) - (cos_2b * chip(q, 1) + sin_2b * chip(q, 2));
+    const double imaginary = sin_2b * chip(q, 1) - cos_2b * chip(q, 2);
+    put(basis.chip, q, -0.5 * imaginary, 0.5 * real, sin_b * chip(q, 3) - cos_b * chip(q, 4));
+    // -exp(-i phi) = -exp(-i b) exp(i delta)
+    const auto put_still = [&](Matrix43<double>& to, double c, double s, double axial) {
+      put(to, q, -(cos_b * c + sin_b * s), sin_b * c - cos_b * s, axial);
+    };
+    put_still(basis.edge, edge(q, 0), edge(q, 1), edge(q, 2));
+    put_still(basis.plunge, plunge(q, 0), plunge(q, 1), plunge(q, 2));
+  }
+  return basis;
+}
+
+namespace {
+
+double base_of(const EdgePiece& piece) {
+  if (!piece.segment.is_arc) return 0.0;
+  constexpr double kFar = 3.0;
+  const double lowest = piece.segment.centre_height - piece.segment.corner_radius;
+  const double base = (piece.bottom - lowest) / (piece.top - piece.bottom);
+  // An arc that begins at its lowest point may miss it by rounding.
+  return piece.bottom == 0.0 && base < 1e-9 ? 0.0 : base > kFar ? 0.0 : std::max(0.0, base);
+}
+
+/// Chebyshev coefficients of values at the nodes cos(pi (i + 1/2) / n).
+std::vector<EdgeMoments> chebyshev(const std::vector<EdgeMoments>& values) {
+  const int nodes = static_cast<int>(values.size());
+  std::vector<double> cosines;  // of pi i / (2 nodes), a whole turn
+  for (int i = 0; i < 4 * nodes; ++i) cosines.push_back(std::cos(0.5 * core::kPi * i / nodes));
+  std::vector<EdgeMoments> terms(nodes);
+  for (int m = 0; m < nodes; ++m) {
+    auto& sum = terms[m].values();
+    for (int i = 0; i < nodes; ++i) {
+      const double factor = (m == 0 ? 1.0 : 2.0) / nodes * cosines[m * (2 * i + 1) % (4 * nodes)];
+      const auto& value = values[i].values();
+      for (int k = 0; k < EdgeMoments::kCount; ++k) sum[k] += factor * value[k];
+    }
+  }
+  return terms;
+}
+
+double largest(const EdgeMoments& moments) {
+  double most = 0.0;
+  for (const double value : moments.values()) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Moments from the lower end on, up to a point that goes up.
+class Growing {
+ public:
+  Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece)
+      : edges_(edges),
+        rows_(rows),
+        flute_(flute),
+        piece_(piece),
+        tangent_(edges.flutes()[flute].helix_tangent),
+        height_(piece.bottom) {}
+
+  const EdgeMoments& at(double z) {
+    if (z <= height_) return moments_;
+    const double lag = edges_.envelope().lag(z);
+    moments_.turn(tangent_ * (lag - edges_.envelope().lag(height_)));
+    edges_.for_each_node(piece_, tangent_, height_, z, [&](const EdgeNode& node) {
+      moments_.add(edges_, rows_, flute_, node, tangent_ * (node.lag - lag));
+    });
+    height_ = z;
+    return moments_;
+  }
+
+ private:
+  const CuttingEdges& edges_;
+  Rows rows_;
+  int flute_;
+  const EdgePiece& piece_;
+  double tangent_;
+  double height_;
+  EdgeMoments moments_;
+};
+
+}  // namespace
+
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
+                           const EdgePiece& piece) {
+  const double base = base_of(piece);
+  const double lag1 = edges.envelope().lag(piece.bottom);
+  const double lag2 = edges.envelope().lag(piece.top);
+  const double low = std::sqrt(base);
+  const double range = std::sqrt(base + 1.0) - low;
+  for (const int nodes : {24, 48, 96}) {
+    MomentSeries series{base, std::vector<EdgeMoments>(nodes), {}};
+    Growing edge(edges, rows, flute, piece);
+    for (int i = nodes - 1; i >= 0; --i) {  // upward
+      const double root = low + range * (0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / nodes));
+      const double part = root * root - base;
+      series.terms[i] = edge.at(std::clamp(
+          edges.envelope().height_at_lag(lag1 + part * (lag2 - lag1)), piece.bottom, piece.top));
+    }
+    series.whole = edge.at(piece.top);
+    series.terms = chebyshev(series.terms);
+    double most = 0.0;
+    for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
+    int count = nodes;
+    while (count > 1 && largest(series.terms[count - 1]) < kNegligible * most) --count;
+    if (count > nodes - 2 && nodes < 96) continue;  // not resolved: the tail is no rounding yet
+    series.terms.resize(count);
+    return series;
+  }
+  return {};
+}
+
+}  // namespace millstudy::force

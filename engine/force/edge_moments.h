@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "force/edge.h"
+#include "force/harmonics.h"
+#include "force/slice.h"
+
+namespace millstudy::force {
+
+/// Integrals along an edge from the lower end of a piece up to a point, (F14): all that the force
+/// of that stretch needs, whatever the angle at which the point stands.
+///
+/// With delta the lag of a place on the stretch behind the upper point (so that it stands at
+/// phi = b - delta, b the angle of the upper point), for each of the columns t, r, a:
+///   chip     planar weight times 1, cos(2 delta), sin(2 delta); axial weight times cos, sin(delta)
+///   edge     planar weight times cos(delta), sin(delta); axial weight
+///   plunge   likewise
+class EdgeMoments {
+ public:
+  static constexpr int kChip = 5;
+  static constexpr int kStill = 3;
+  static constexpr int kCount = kColumns * (kChip + 2 * kStill);
+
+  double chip(int column, int i) const { return values_[kChip * column + i]; }
+  double edge(int column, int i) const { return values_[kEdge + kStill * column + i]; }
+  double plunge(int column, int i) const { return values_[kPlunge + kStill * column + i]; }
+  const std::array<double, kCount>& values() const { return values_; }
+  std::array<double, kCount>& values() { return values_; }
+
+  /// Adds a node that is delta behind the point.
+  void add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node, double delta);
+
+  /// Goes on to a point that is further up by a lag: what is there falls behind by it.
+  void turn(double lag);
+
+  /// The force of the stretch with its upper point at b, (F3), (F14); rows in feed axes.
+  Basis<double> basis(Rows rows, double cos_b, double sin_b) const;
+
+ private:
+  static constexpr int kEdge = kColumns * kChip;
+  static constexpr int kPlunge = kEdge + kColumns * kStill;
+  std::array<double, kCount> values_{};
+};
+
+/// The moments of a piece as functions of how far up it goes: Chebyshev series in
+/// sqrt(base + part), part the lag of the point in units of the piece, 0 .. 1.
+struct MomentSeries {
+  /// Where an arc's root sqrt(z - z_lowest) is nearly singular in the piece, the series go with it:
+  /// its place below the lower end, in units of the piece. 0 where it is far.
+  double base;
+  std::vector<EdgeMoments> terms;
+  EdgeMoments whole;  ///< at part = 1
+};
+
+/// (F14): terms below 1e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
+/// deg takes 96.
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
+
+}  // namespace millstudy::force
