@@ -85,10 +85,12 @@ class RunoutEdge {
               const Feed& feed, const Arc& arc) const;
 
  private:
+  struct Sweep;
   Rows rows_;
   double hand_;
-  double shift_;  ///< immersion angle of the tip less that of the lower end [rad]
-  double lag_;    ///< of the upper end behind the lower [rad], > 0
+  double shift_;    ///< immersion angle of the tip less that of the lower end [rad]
+  double lag_;      ///< of the upper end behind the lower [rad], > 0
+  double per_lag_;  ///< its reciprocal, finite also without helix
   MomentSeries series_;
 };
 
