@@ -39,7 +39,7 @@ void CuttingEdges::add_pieces(const cutter::Segment& segment, double bottom, dou
   const EdgePiece whole = {segment, bottom, top};
   // Cylinders have closed forms of any length, as long as nothing on them varies with height.
   const bool closed = segment.is_cylinder() && !variable_helix_ && !variation_.with_height() &&
-                      !cutter::has_runout(cutter_);
+                      !variation_.with_chip() && !cutter::has_runout(cutter_);
   const int parts =
       closed ? 1 : 1 + static_cast<int>(span(whole, steepest_, bottom, top) / kLongestPanel);
   double from = bottom;

@@ -56,12 +56,15 @@ struct Combination {
   double cos_direction;
   double sin_direction;
 
-  /// For a flute whose chips are this much thicker than the mean, (F21).
-  Combination with_pitch(double ratio) const {
+  /// For a flute whose chips are this much thicker than the mean, (F21), while coefficients fall
+  /// with powers of the chip, (F18).
+  Combination with_chip(double ratio, const std::array<double, kColumns>& exponent) const {
     Combination other = *this;
     for (int column = 0; column < kColumns; ++column) {
-      other.load[column] *= ratio;
-      other.load[2 * kColumns + column] *= ratio;
+      const double m = exponent[column];
+      const double factor = m == 0.0 ? ratio : std::pow(ratio, 1.0 - m);
+      other.load[column] *= factor;
+      other.load[2 * kColumns + column] *= factor;
     }
     return other;
   }

@@ -72,6 +72,27 @@ class SeriesEdge {
   HarmonicBasis whole_;  ///< in the angle of the tip
 };
 
+/// Any piece of teeth whose chip coefficients go with a power of the chip thickness, for one
+/// engagement (F26): the whole pass of a tooth as series of the angle of its tip. Chip loads are
+/// those of unit feed.
+class SizeEffectEdge {
+ public:
+  SizeEffectEdge(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
+                 const Arc& arc);
+  void add_to(SamplingRun& run, const Combination& with) const;
+
+ private:
+  /// Tip angles origin .. origin + sign length.
+  struct Stretch {
+    double origin;  ///< [rad]
+    double sign;
+    double length;  ///< [rad]
+    PreparedRows series;
+  };
+  Closed closed_;
+  std::vector<Stretch> stretches_;
+};
+
 /// Any piece of teeth whose axis is offset from the spindle's, (F25): of flutes that have one helix
 /// angle, without tilt, fed in the plane.
 class RunoutEdge {

@@ -53,6 +53,7 @@ struct ToothGeometry {
     }
     const bool closed_form =
         rows == Rows::forces && !edges->variable_helix() && !edges->variation().with_height();
+    if (edges->variation().with_exponent()) return;  // is prepared for an arc: Engaged
     for (const EdgePiece& piece : edges->pieces()) {
       if (closed_form && piece.segment.is_cylinder()) {
         cylinders.emplace_back(*edges, flute, piece);
@@ -85,6 +86,7 @@ struct ForceSampler::Geometry {
            const Variation& variation, Rows row_kind)
       : angular_steps(steps),
         rows(row_kind),
+        exact(edge_rule.rule == Rule::exact),
         edges(std::make_shared<const CuttingEdges>(cutter, axial_depth, variation)),
         plain_edges(std::make_shared<const CuttingEdges>(plain(cutter), axial_depth, variation)),
         nonlinear(edges, edge_rule),
@@ -107,8 +109,11 @@ struct ForceSampler::Geometry {
     }
   }
 
+  /// Every flute sees a chip in proportion to the feed, or to a power of it.
   bool can_be_linear() const {
-    return !cutter::has_runout(edges->cutter()) && !edges->variation().with_chip();
+    const Variation& variation = edges->variation();
+    const bool power = variation.with_exponent() && !variation.orthogonal && exact;
+    return !cutter::has_runout(edges->cutter()) && (power || !variation.with_chip());
   }
 
   /// Runout with all that makes its chips linear in cot(phi), (F23); beyond so many flutes their
@@ -122,6 +127,7 @@ struct ForceSampler::Geometry {
 
   int angular_steps;
   Rows rows;
+  bool exact;
   std::shared_ptr<const CuttingEdges> edges;
   std::shared_ptr<const CuttingEdges> plain_edges;
   NonlinearForce nonlinear;
@@ -134,32 +140,43 @@ struct ForceSampler::Geometry {
 
 /// What of the geometry depends on the arcs.
 struct ForceSampler::Engaged {
-  Engaged(const Geometry& geometry, std::span<const Arc> all) : arcs(all.begin(), all.end()) {
+  /// @param first  of a sampler that is made anew: worth the milliseconds of a size effect's series
+  Engaged(const Geometry& g, std::span<const Arc> all, bool first)
+      : arcs(all.begin(), all.end()), size_effect_is_prepared(first) {
+    const bool power = g.edges->variation().with_exponent();
     for (const Arc& arc : arcs) {
-      for (const ToothGeometry& tooth : geometry.geometries) {
+      for (std::size_t i = 0; i < g.geometries.size(); ++i) {
         series.emplace_back();
-        for (const SeriesEdge& edge : tooth.series) series.back().push_back(edge.at(arc));
+        power_edges.emplace_back();
+        for (const SeriesEdge& edge : g.geometries[i].series) series.back().push_back(edge.at(arc));
+        if (!power || !first) continue;
+        for (const EdgePiece& piece : g.plain_edges->pieces()) {
+          power_edges.back().emplace_back(*g.plain_edges, g.rows, static_cast<int>(i), piece, arc);
+        }
       }
     }
   }
 
-  void add_to(SamplingRun& run, const Geometry& geometry, const Tooth& tooth,
+  void add_to(SamplingRun& run, const Geometry& g, const Tooth& tooth,
               const Combination& all) const {
-    const Combination with = all.with_pitch(tooth.pitch_ratio);
-    const ToothGeometry& edge = geometry.geometries[tooth.geometry];
+    const Combination with = all.with_chip(tooth.pitch_ratio, g.edges->variation().size_exponent);
+    const ToothGeometry& edge = g.geometries[tooth.geometry];
     run.begin_tooth(tooth.position);
     for (std::size_t a = 0; a < arcs.size(); ++a) {
-      const auto& prepared = series[a * geometry.geometries.size() + tooth.geometry];
-      for (std::size_t i = 0; i < prepared.size(); ++i) {
-        edge.series[i].add_to(run, with, prepared[i]);
+      const std::size_t at = a * g.geometries.size() + tooth.geometry;
+      for (std::size_t i = 0; i < series[at].size(); ++i) {
+        edge.series[i].add_to(run, with, series[at][i]);
       }
+      for (const SizeEffectEdge& power : power_edges[at]) power.add_to(run, with);
       for (const CylinderEdge& cylinder : edge.cylinders) cylinder.add_to(run, with, arcs[a]);
       if (edge.discs) edge.discs->add_to(run, with, arcs[a]);
     }
   }
 
   std::vector<Arc> arcs;
-  std::vector<std::vector<SeriesEdge::AtArc>> series;  ///< shape (arcs, geometries)
+  bool size_effect_is_prepared;
+  std::vector<std::vector<SeriesEdge::AtArc>> series;    ///< shape (arcs, geometries)
+  std::vector<std::vector<SizeEffectEdge>> power_edges;  ///< likewise
 };
 
 ForceSampler::ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
@@ -173,13 +190,13 @@ ForceSampler::ForceSampler(const cutter::Cutter& cutter, const Engagement& engag
   geometry_ = std::make_shared<const Geometry>(cutter, engagement.axial_depth, edge_rule,
                                                angular_steps, variation, rows);
   const Arc arc = engagement.arc();
-  engaged_ = std::make_shared<const Engaged>(*geometry_, std::span(&arc, 1));
+  engaged_ = std::make_shared<const Engaged>(*geometry_, std::span(&arc, 1), true);
 }
 
 ForceSampler ForceSampler::with_arcs(std::span<const Arc> arcs) const {
   for (const Arc& arc : arcs) check(arc);
   ForceSampler other = *this;
-  other.engaged_ = std::make_shared<const Engaged>(*geometry_, arcs);
+  other.engaged_ = std::make_shared<const Engaged>(*geometry_, arcs, false);
   return other;
 }
 
@@ -189,6 +206,9 @@ int ForceSampler::angular_steps() const {
 
 bool ForceSampler::is_linear(const Feed& feed) const {
   if (!geometry_->can_be_linear()) return false;
+  if (geometry_->edges->variation().with_exponent()) {
+    return engaged_->size_effect_is_prepared && feed.slope == 0.0;
+  }
   if (feed.upward() <= 0.0) return true;
   // Upward the lower side of a curved edge has no chip; a cylinder does not see it.
   const auto pieces = geometry_->edges->pieces();
@@ -222,8 +242,13 @@ void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coeff
     }
     return;
   }
-  const Combination with(loads(coefficients, feed), std::remainder(feed.direction, 2.0 * core::kPi),
-                         feed.slope != 0.0);
+  Loads load = loads(coefficients, feed);
+  const Variation& variation = g.edges->variation();
+  for (int q = 0; q < kColumns; ++q) {  // (F18): K h (h/h0)^-m = K f (f/h0)^-m (h/f)^(1-m)
+    const double m = variation.size_exponent[q];
+    if (m != 0.0) load[q] *= std::pow(feed.per_tooth / variation.reference_chip_thickness, -m);
+  }
+  const Combination with(load, std::remainder(feed.direction, 2.0 * core::kPi), feed.slope != 0.0);
   if (flute != kAllFlutes) {
     engaged_->add_to(run, g, g.teeth[flute], with);
   } else if (run.tables().teeth > 1) {

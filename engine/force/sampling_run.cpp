@@ -125,17 +125,17 @@ void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor&
   });
 }
 
-void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
-                                const std::vector<double>& terms, double sign, double origin,
-                                double length, double base) {
+template <class Variable>
+[[gnu::always_inline]] inline void SamplingRun::add_series(const Pass& pass, IndexRange indices,
+                                                           const std::vector<double>& terms,
+                                                           double sign, double origin,
+                                                           double length,
+                                                           const Variable& variable) {
   const double from = pass.offset - origin;
-  const double low = std::sqrt(base);
-  const double scale = 2.0 / (std::sqrt(base + 1.0) - low);
   accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
     const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
     const Lanes part = d / length;
-    const Lanes inside = part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
-    const Lanes t = scale * (square_root(base + inside) - low) - 1.0;
+    const Lanes t = variable(part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{});
     const Lanes twice = 2.0 * t;
     // Clenshaw's recurrence, four series abreast.
     Lanes x1{}, y1{}, z1{}, torque1{};
@@ -152,6 +152,24 @@ void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
     y = terms[1] + (t * y1 - y2);
     z = terms[2] + (t * z1 - z2);
     torque = terms[3] + (t * torque1 - torque2);
+  });
+}
+
+void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
+                                const std::vector<double>& terms, double sign, double origin,
+                                double length, double base) {
+  const double low = std::sqrt(base);
+  const double scale = 2.0 / (std::sqrt(base + 1.0) - low);
+  add_series(pass, indices, terms, sign, origin, length, [&](const Lanes& part) -> Lanes {
+    return scale * (square_root(base + part) - low) - 1.0;
+  });
+}
+
+void SamplingRun::add_quartic_chebyshev(const Pass& pass, IndexRange indices,
+                                        const std::vector<double>& terms, double sign,
+                                        double origin, double length) {
+  add_series(pass, indices, terms, sign, origin, length, [&](const Lanes& part) -> Lanes {
+    return 2.0 * square_root(square_root(part)) - 1.0;
   });
 }
 

@@ -115,7 +115,14 @@ class SamplingRun {
   void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
                      double sign, double origin, double length, double base);
 
+  /// The same, t going from -1 to 1 with the fourth root of d / length.
+  void add_quartic_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
+                             double sign, double origin, double length);
+
  private:
+  template <class Variable>
+  void add_series(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
+                  double sign, double origin, double length, const Variable& variable);
   Pass pass(std::int64_t q) const;
   void put_zeros(IndexRange indices);
 

@@ -50,10 +50,12 @@ void check(const HeightFactors& factors) {
 
 }  // namespace
 
+bool Variation::with_exponent() const {
+  return std::any_of(size_exponent.begin(), size_exponent.end(), [](double m) { return m != 0.0; });
+}
+
 bool Variation::with_chip() const {
-  const bool exponents =
-      std::any_of(size_exponent.begin(), size_exponent.end(), [](double m) { return m != 0.0; });
-  return exponents || (orthogonal && depends_on_chip(*orthogonal));
+  return with_exponent() || (orthogonal && depends_on_chip(*orthogonal));
 }
 
 bool Variation::with_height() const {

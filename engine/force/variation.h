@@ -44,6 +44,7 @@ struct Variation {
   /// them are then factors.
   std::optional<OrthogonalData> orthogonal = std::nullopt;
 
+  bool with_exponent() const;  ///< there is a size effect
   bool with_chip() const;    ///< a coefficient depends on chip thickness: no longer linear in feed
   bool with_height() const;  ///< a coefficient depends on the place on the edge
 };
