@@ -6,8 +6,6 @@
 #include <cstring>
 #include <limits>
 
-#include "core/units.h"
-#include "cutter/envelope.h"
 #include "force/lanes.h"
 
 namespace millstudy::force {
@@ -98,6 +96,9 @@ void StatisticsAccumulator::add(const ForceSamples& samples, std::int64_t count)
     resultant_taker.take(square_root(x * x + y * y + z * z), rest);
     torque_taker.take(load_part(&samples.torque[i], rest), rest);
   }
+  for (i = 0; i < count; ++i) {
+    cutting_ += samples.x[i] != 0.0 || samples.y[i] != 0.0 || samples.z[i] != 0.0;
+  }
   count_ += count;
 }
 
@@ -118,16 +119,14 @@ Statistics StatisticsAccumulator::statistics(const Sums& sums) const {
 
 ForceStatistics StatisticsAccumulator::result() const {
   const Statistics torque = statistics(sums_[4]);
-  return {statistics(sums_[0]), statistics(sums_[1]), statistics(sums_[2]),
-          statistics(sums_[3]), torque.mean,          torque.max};
-}
-
-double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,
-                              double feed_per_tooth) {
-  const double steepest =
-      std::clamp(0.5 * core::kPi, engagement.entry_angle, engagement.exit_angle);
-  return feed_per_tooth * std::sin(steepest) *
-         cutter::largest_sin_kappa(cutter::Envelope(cutter), engagement.axial_depth);
+  return {statistics(sums_[0]),
+          statistics(sums_[1]),
+          statistics(sums_[2]),
+          statistics(sums_[3]),
+          torque.mean,
+          torque.max,
+          count_ == 0 ? std::numeric_limits<double>::quiet_NaN()
+                      : static_cast<double>(cutting_) / static_cast<double>(count_)};
 }
 
 }  // namespace millstudy::force

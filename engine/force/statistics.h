@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "cutter/cutter.h"
-#include "force/engagement.h"
 #include "force/sampler.h"
 
 namespace millstudy::force {
@@ -19,12 +17,13 @@ struct Statistics {
 };
 
 struct ForceStatistics {
-  Statistics x;          ///< [N]
-  Statistics y;          ///< [N]
-  Statistics z;          ///< [N]
-  Statistics resultant;  ///< sqrt(x^2 + y^2 + z^2) of each sample [N]
-  double torque_mean;    ///< [N mm]
-  double torque_max;     ///< [N mm]
+  Statistics x;             ///< [N]
+  Statistics y;             ///< [N]
+  Statistics z;             ///< [N]
+  Statistics resultant;     ///< sqrt(x^2 + y^2 + z^2) of each sample [N]
+  double torque_mean;       ///< [N mm]
+  double torque_max;        ///< [N mm]
+  double cutting_fraction;  ///< of the samples in which any tooth cuts [1]
 };
 
 /// Statistics of a history that comes in pieces, none of which is kept.
@@ -49,11 +48,8 @@ class StatisticsAccumulator {
   Statistics statistics(const Sums& sums) const;
 
   std::int64_t count_ = 0;
+  std::int64_t cutting_ = 0;  // samples with a force
   std::array<Sums, 5> sums_;  // x, y, z, resultant, torque
 };
-
-/// (F16): the thickest chip that the cut makes [mm].
-double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,
-                              double feed_per_tooth);
 
 }  // namespace millstudy::force

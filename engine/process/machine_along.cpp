@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "force/chip_thickness.h"
 
 namespace millstudy::process {
 namespace {
@@ -68,7 +69,7 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   }
   result.force = statistics.result();
   result.chip_thickness_max =
-      force::largest_chip_thickness(machining.cutter, machining.engagement, longest_feed);
+      force::largest_chip_thickness(machining.cutter, machining.engagement, {longest_feed});
   return result;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "force/chip_thickness.h"
 #include "study/kinds.h"
 #include "study/rows.h"
 #include "study/shared_sampler.h"
@@ -22,7 +23,7 @@ EvaluatePoint make_evaluator() {
     force::StatisticsAccumulator statistics;
     statistics.add(samples, point.angular_steps);
     fill_force_row(point, statistics.result(),
-                   force::largest_chip_thickness(point.cutter, engaged, feed_per_tooth(point)),
+                   force::largest_chip_thickness(point.cutter, engaged, {feed_per_tooth(point)}),
                    row);
     if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
   };

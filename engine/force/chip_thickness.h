@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "force/coefficients.h"
+#include "force/edge.h"
+#include "force/engagement.h"
+
+namespace millstudy::force {
+
+/// (F16): the thickest chip that each flute cuts [mm]; shape (N). 0 for one that misses every cut.
+///
+/// The chip grows with sin(phi) whatever the law, so only heights have to be searched: in closed
+/// form where flutes have one helix angle, no runout and a feed in the plane; else by a scan and
+/// golden sections, to 1e-7 of itself (measured).
+std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<const Arc> arcs,
+                                           const Feed& feed);
+
+/// The largest of them.
+double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,
+                              const Feed& feed);
+
+}  // namespace millstudy::force
