@@ -60,7 +60,8 @@ void check_cut_keys(const Given& given, const Case& base, Faults& faults) {
 
 void check_cut(const Given& given, const Case& base, Faults& faults) {
   if (!given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg", "cut.exit_deg",
-                        "cutter.diameter_mm", "cutter.helix_deg", "cut.axial_depth_mm"})) {
+                        "cutter.diameter_mm", "cutter.helix_deg", "cutter.flute_length_mm",
+                        "cutter.stick_out_mm", "cut.axial_depth_mm"})) {
     try {
       engagement(base);
     } catch (const core::CaseError& error) {

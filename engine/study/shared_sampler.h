@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/shared_cache.h"
 #include "force/sampler.h"
+#include "study/rules.h"
 #include "study/share_key.h"
 
 namespace millstudy::study {
@@ -23,6 +24,7 @@ class SharedSamplers {
         share_key({cutter_keys(), numerics_keys()}, point,
                   {engaged.entry_angle, engaged.exit_angle, engaged.axial_depth});
     return cache_->get(key, [&] {
+      check_point_cutter(point);
       return force::ForceSampler(point.cutter, engaged, point.edge_rule, point.angular_steps);
     });
   }
