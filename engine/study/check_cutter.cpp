@@ -10,6 +10,7 @@ namespace millstudy::study {
 void check_cutter_keys(const Given& given, Faults& faults) {
   constexpr std::string_view kRadius = "cutter.corner_centre_radius_mm";
   constexpr std::string_view kHeight = "cutter.corner_centre_height_mm";
+  if (!given.may_be("cutter.shape", "general")) return;  // it is not used at all
   if (given.has(kRadius) == given.has(kHeight)) return;
   const auto [there, absent] =
       given.has(kRadius) ? std::pair{kRadius, kHeight} : std::pair{kHeight, kRadius};
