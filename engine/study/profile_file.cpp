@@ -61,8 +61,9 @@ ProfilePtr read_profile(const core::Value& table) {
     faults.add(points->place,
                fmt::format("points_mm must be a list of [z, r], not {}", type_name(*points)));
   } else if (points->array().size() < 2 || points->array().size() > kMostPoints) {
-    faults.add(points->place, fmt::format("points_mm has {} points, not 2 to {}",
-                                          points->array().size(), kMostPoints));
+    const std::size_t count = points->array().size();
+    faults.add(points->place, fmt::format("points_mm has {} point{}, not 2 to {}", count,
+                                          count == 1 ? "" : "s", kMostPoints));
   } else {
     for (const core::Value& item : points->array()) add_point(item, profile, faults);
   }

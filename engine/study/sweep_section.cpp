@@ -177,7 +177,9 @@ class SweepReader {
       }
     }
     if (!key.numeric()) {
-      fail(range, fmt::format("sweep.axes: {} is not a number; give a list", key.path));
+      fail(range, fmt::format("sweep.axes: {} is {}", key.path,
+                              key.takes_list() ? "a list; give a list of lists: [[...], [...]]"
+                                               : "not a number; give a list"));
     }
     const double from = range_member(key, range, "from");
     const double to = range_member(key, range, "to");
