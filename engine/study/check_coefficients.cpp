@@ -42,7 +42,6 @@ void check_coefficient_keys(const Given& given, Faults& faults) {
 }
 
 void check_coefficients(const Given& given, const Case& base, Faults& faults) {
-  if (given.section_swept("coefficients")) return;
   add_broken(broken_coefficient_rules(base), given, faults);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numeric>
 
 #include "core/error.h"
@@ -18,8 +19,10 @@ using Rules = std::vector<BrokenRule>;
 void check_count(std::string_view key, const std::vector<double>& angles, int flutes,
                  Rules& broken) {
   if (angles.empty() || std::ssize(angles) == flutes) return;
-  broken.push_back({key, fmt::format("{} must have one angle for each flute", key),
-                    fmt::format("{} for {} flutes", angles.size(), flutes)});
+  broken.push_back({key,
+                    fmt::format("{} must have one angle for each flute", key),
+                    fmt::format("{} for {} flutes", angles.size(), flutes),
+                    {"cutter.flutes"}});
 }
 
 void throw_first(const Rules& broken) {
@@ -42,12 +45,13 @@ std::vector<BrokenRule> broken_cutter_rules(const Case& point) {
   const auto [least, most] =
       std::minmax_element(cutter.helix_angles.begin(), cutter.helix_angles.end());
   if (!cutter.helix_angles.empty() && *least < 0.0 && *most > 0.0) {
-    broken.push_back({"cutter.helix_deg", "cutter.helix_deg must be of one hand", ""});
+    broken.push_back({"cutter.helix_deg", "cutter.helix_deg must be of one hand"});
   }
   if (cutter.shape == cutter::Shape::bull_nose && cutter.corner_radius > cutter::radius(cutter)) {
     broken.push_back({"cutter.corner_radius_mm",
                       "cutter.corner_radius_mm must be <= half of cutter.diameter_mm",
-                      fmt::format("{} > {} mm", cutter.corner_radius, cutter::radius(cutter))});
+                      fmt::format("{} > {} mm", cutter.corner_radius, cutter::radius(cutter)),
+                      {"cutter.shape", "cutter.diameter_mm"}});
   }
   return broken;
 }
@@ -55,8 +59,9 @@ std::vector<BrokenRule> broken_cutter_rules(const Case& point) {
 std::vector<BrokenRule> broken_coefficient_rules(const Case& point) {
   const force::HeightFactors& height = point.law.height;
   Rules broken;
-  if (!std::is_sorted(height.heights.begin(), height.heights.end(), std::less_equal<>())) {
-    broken.push_back({"coefficients.heights_mm", "coefficients.heights_mm must ascend", ""});
+  if (std::adjacent_find(height.heights.begin(), height.heights.end(), std::greater_equal<>()) !=
+      height.heights.end()) {
+    broken.push_back({"coefficients.heights_mm", "coefficients.heights_mm must ascend"});
   }
   constexpr std::array<std::string_view, 6> kTables = {
       "coefficients.Ktc_table", "coefficients.Krc_table", "coefficients.Kac_table",
@@ -66,20 +71,25 @@ std::vector<BrokenRule> broken_coefficient_rules(const Case& point) {
     broken.push_back(
         {kTables[i],
          fmt::format("{} must have one factor for each of coefficients.heights_mm", kTables[i]),
-         fmt::format("{} for {} heights", height.table[i].size(), height.heights.size())});
+         fmt::format("{} for {} heights", height.table[i].size(), height.heights.size()),
+         {"coefficients.heights_mm"}});
   }
   for (const auto& [key, range] :
        {std::pair{"coefficients.valid_feed_per_tooth_mm", &point.valid.feed_per_tooth},
         {"coefficients.valid_cutting_speed_m_per_min", &point.valid.cutting_speed},
         {"coefficients.valid_axial_depth_mm", &point.valid.axial_depth}}) {
     if (std::is_sorted(range->begin(), range->end())) continue;
-    broken.push_back({key, fmt::format("{} must ascend", key), ""});
+    broken.push_back({key, fmt::format("{} must ascend", key)});
   }
   return broken;
 }
 
 void add_broken(const std::vector<BrokenRule>& broken, const Given& given, Faults& faults) {
   for (const BrokenRule& rule : broken) {
+    const bool swept = given.swept(rule.key) ||
+                       std::any_of(rule.others.begin(), rule.others.end(),
+                                   [&](std::string_view other) { return given.swept(other); });
+    if (swept) continue;
     faults.add(given.place({rule.key}),
                rule.detail.empty() ? rule.text : fmt::format("{} ({})", rule.text, rule.detail));
   }

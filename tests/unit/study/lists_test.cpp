@@ -34,6 +34,17 @@ TEST(Lists, OfTheWrongLengthOrSumAreFaults) {
             "test.toml:1: cutter.helix_deg must be of one hand");
 }
 
+TEST(Lists, OfTheWrongLengthAreFaultsUnlessOneOfTheTwoIsSwept) {
+  Value root = four_flutes();
+  set(root, "cutter", "pitch_deg", list(120.0, 120.0, 120.0));
+  Value other = root;
+  sweep(other, {{"cutter.runout_offset_mm", list(0.0, 0.01)}});
+  EXPECT_EQ(faults_of(other),
+            "test.toml:1: cutter.pitch_deg must have one angle for each flute (3 for 4 flutes)");
+  sweep(root, {{"cutter.flutes", list(3, 4)}});
+  EXPECT_EQ(faults_of(root), "");
+}
+
 TEST(Lists, AsAnAxisAreLabelledByTheirNumbers) {
   Value root = four_flutes();
   sweep(root, {{"cutter.pitch_deg", list(list(90, 90, 90, 90), list(80, 100, 80, 100))},
