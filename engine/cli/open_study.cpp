@@ -114,4 +114,10 @@ OpenStudy open_study(const StudyOptions& options) {
   return open;
 }
 
+void print_warnings(const study::Study& study) {
+  for (const core::Fault& warning : study.warnings) {
+    fmt::print(stderr, "warning: {}\n", to_string(warning));
+  }
+}
+
 }  // namespace millstudy::cli

@@ -19,4 +19,7 @@ struct OpenStudy {
 /// @throws core::InputError with every fault
 OpenStudy open_study(const StudyOptions& options);
 
+/// Tells stderr what the study does at the user's own risk.
+void print_warnings(const study::Study& study);
+
 }  // namespace millstudy::cli

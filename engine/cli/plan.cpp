@@ -27,7 +27,7 @@ double memory_bytes(const sweep::Layout& layout, const Estimate& estimate, int t
 }
 
 std::string axis_text(const study::Axis& axis) {
-  if (!axis.key->numeric()) return fmt::format("{}", fmt::join(axis.labels, ", "));
+  if (!axis.numeric()) return fmt::format("{}", fmt::join(axis.labels, ", "));
   const auto [least, most] = std::minmax_element(axis.numbers.begin(), axis.numbers.end());
   if (axis.numbers.size() <= 6)
     return fmt::format("{} {}", fmt::join(axis.numbers, ", "), axis.key->unit);
@@ -38,6 +38,7 @@ std::string axis_text(const study::Axis& axis) {
 
 int plan(const StudyOptions& options) {
   const OpenStudy open = open_study(options);
+  print_warnings(open.study);
   const sweep::Layout layout = study::layout(open.study);
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   const Estimate estimate = measure(open.study, layout);

@@ -179,6 +179,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   if (fs::equivalent(path, options.file, different)) {
     throw core::InputError({path, 0}, "is the study itself: give another result file with -o");
   }
+  print_warnings(open.study);
   if (!settings.fresh) {
     if (const auto outcome = finished_result(path, open)) {
       return print_outcome(*outcome, options, {});

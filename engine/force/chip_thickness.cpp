@@ -11,15 +11,6 @@
 namespace millstudy::force {
 namespace {
 
-double largest_sine(std::span<const Arc> arcs) {
-  double largest = 0.0;
-  for (const Arc& arc : arcs) {
-    const double steepest = std::clamp(0.5 * core::kPi, arc.entry_angle, arc.exit_angle);
-    largest = std::max(largest, std::sin(steepest));
-  }
-  return largest;
-}
-
 /// Largest f over a .. b, by golden sections about the best of a scan.
 template <class Function>
 double largest_over(double a, double b, const Function& f) {
@@ -47,6 +38,15 @@ double largest_over(double a, double b, const Function& f) {
 
 }  // namespace
 
+double largest_sine(std::span<const Arc> arcs) {
+  double largest = 0.0;
+  for (const Arc& arc : arcs) {
+    const double steepest = std::clamp(0.5 * core::kPi, arc.entry_angle, arc.exit_angle);
+    largest = std::max(largest, std::sin(steepest));
+  }
+  return largest;
+}
+
 std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<const Arc> arcs,
                                            const Feed& feed) {
   const ChipLaw law(edges);
@@ -72,14 +72,6 @@ std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<
     thickest.push_back(largest);
   }
   return thickest;
-}
-
-double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,
-                              const Feed& feed) {
-  const Arc arc = engagement.arc();
-  const std::vector<double> all = largest_chip_thickness(
-      CuttingEdges(cutter, engagement.axial_depth, {}), std::span(&arc, 1), feed);
-  return *std::max_element(all.begin(), all.end());
 }
 
 }  // namespace millstudy::force

@@ -10,6 +10,9 @@
 
 namespace millstudy::force {
 
+/// Largest sin(phi) within arcs; 0 without any.
+double largest_sine(std::span<const Arc> arcs);
+
 /// (F16): the thickest chip that each flute cuts [mm]; shape (N). 0 for one that misses every cut.
 ///
 /// The chip grows with sin(phi) whatever the law, so only heights have to be searched: in closed
@@ -17,9 +20,5 @@ namespace millstudy::force {
 /// golden sections, to 1e-7 of itself (measured).
 std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<const Arc> arcs,
                                            const Feed& feed);
-
-/// The largest of them.
-double largest_chip_thickness(const cutter::Cutter& cutter, const Engagement& engagement,
-                              const Feed& feed);
 
 }  // namespace millstudy::force

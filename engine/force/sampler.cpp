@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -181,27 +182,50 @@ struct ForceSampler::Engaged {
 
 ForceSampler::ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
                            const EdgeRule& edge_rule, int angular_steps, const Variation& variation,
-                           Rows rows) {
+                           bool with_moments) {
   checked_steps(angular_steps);
   cutter::check(cutter);
   check(cutter, engagement);
   check(edge_rule);
   check(variation);
-  geometry_ = std::make_shared<const Geometry>(cutter, engagement.axial_depth, edge_rule,
-                                               angular_steps, variation, rows);
   const Arc arc = engagement.arc();
-  engaged_ = std::make_shared<const Engaged>(*geometry_, std::span(&arc, 1), true);
+  const auto prepare = [&](ForceSampler& sampler, Rows rows) {
+    sampler.geometry_ = std::make_shared<const Geometry>(cutter, engagement.axial_depth, edge_rule,
+                                                         angular_steps, variation, rows);
+    sampler.engaged_ =
+        std::make_shared<const Engaged>(*sampler.geometry_, std::span(&arc, 1), true);
+  };
+  prepare(*this, Rows::forces);
+  if (!with_moments) return;
+  ForceSampler moments;
+  prepare(moments, Rows::moments);
+  moments_ = std::make_shared<const ForceSampler>(std::move(moments));
 }
 
 ForceSampler ForceSampler::with_arcs(std::span<const Arc> arcs) const {
   for (const Arc& arc : arcs) check(arc);
   ForceSampler other = *this;
   other.engaged_ = std::make_shared<const Engaged>(*geometry_, arcs, false);
+  if (moments_) other.moments_ = std::make_shared<const ForceSampler>(moments_->with_arcs(arcs));
   return other;
 }
 
 int ForceSampler::angular_steps() const {
   return geometry_->angular_steps;
+}
+
+std::span<const Arc> ForceSampler::arcs() const {
+  return engaged_->arcs;
+}
+
+const CuttingEdges& ForceSampler::edges() const {
+  return *geometry_->edges;
+}
+
+void ForceSampler::sample_moments(const Coefficients& coefficients, const Feed& feed,
+                                  std::int64_t first, std::int64_t count, ForceSamples& out) const {
+  assert(moments_);
+  moments_->sample(coefficients, feed, first, count, out);
 }
 
 bool ForceSampler::is_linear(const Feed& feed) const {

@@ -19,10 +19,10 @@ class SamplingRun;
 
 /// Forces on the tool at successive spindle angles, one array a component.
 struct ForceSamples {
-  std::vector<double> x;       ///< [N]; of Rows::moments the moment about x [N mm]
-  std::vector<double> y;       ///< [N]; the moment about y [N mm]
-  std::vector<double> z;       ///< [N]; zero
-  std::vector<double> torque;  ///< [N mm]; zero
+  std::vector<double> x;       ///< [N]
+  std::vector<double> y;       ///< [N]
+  std::vector<double> z;       ///< [N]
+  std::vector<double> torque;  ///< [N mm]
 
   void resize(std::size_t count);
 };
@@ -39,10 +39,11 @@ class ForceSampler {
  public:
   /// @param angular_steps  S, samples a revolution, 1 .. 1e7
   /// @param variation      how the coefficients vary along the edge and with the chip
+  /// @param with_moments   sample_moments() is going to be used
   /// Throws core::InputError for a cutter, engagement, rule or angular_steps out of range.
   ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
                const EdgeRule& edge_rule, int angular_steps, const Variation& variation = {},
-               Rows rows = Rows::forces);
+               bool with_moments = false);
 
   /// The same cutter and depth in other arcs, none of which overlap; cheap, for the geometry is
   /// shared. No arc at all is air.
@@ -63,12 +64,20 @@ class ForceSampler {
   void sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
                     std::int64_t first, std::int64_t count, ForceSamples& out) const;
 
+  /// (F20): moments of the force about the axes x and y through the tip, in the arrays of these
+  /// names [N mm]; the others are zero. Only of a sampler made with_moments.
+  void sample_moments(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
+                      std::int64_t count, ForceSamples& out) const;
+
   /// True if samples of this feed are in proportion to it, and so take the prepared series.
   bool is_linear(const Feed& feed) const;
 
   int angular_steps() const;
+  std::span<const Arc> arcs() const;
+  const CuttingEdges& edges() const;
 
  private:
+  ForceSampler() = default;
   struct Geometry;
   struct Engaged;
   void add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
@@ -80,6 +89,7 @@ class ForceSampler {
 
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Engaged> engaged_;
+  std::shared_ptr<const ForceSampler> moments_;  ///< the same cut with Rows::moments, or null
 };
 
 }  // namespace millstudy::force

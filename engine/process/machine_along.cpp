@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "force/chip_thickness.h"
 
 namespace millstudy::process {
 namespace {
@@ -45,9 +44,8 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   const double teeth_per_period = path.period * machining.spindle_speed * machining.cutter.flutes;
 
   PathForces result;
-  force::StatisticsAccumulator statistics;
+  force::FigureAccumulator figures(machining.figures, sampler);
   force::ForceSamples samples;
-  double longest_feed = 0.0;
   for (std::int64_t i = 0; i < periods; ++i) {
     const path::Vec3& from = path.points[i];
     const path::Vec3& to = path.points[i + 1];
@@ -55,21 +53,18 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
     const double dy = to.y - from.y;
     const double feed_per_tooth = std::hypot(dx, dy) / teeth_per_period;  // (M1)
     const double feed_direction = std::atan2(dy, dx);                     // (M3)
-    longest_feed = std::max(longest_feed, feed_per_tooth);
+    const force::Feed feed = {feed_per_tooth, feed_direction};
     const std::int64_t end = first_sample_of_period(i + 1, samples_per_period);
     for (std::int64_t first = first_sample_of_period(i, samples_per_period); first < end;) {
       const std::int64_t count = std::min(kBatch, end - first);
-      sampler.sample(machining.coefficients, {feed_per_tooth, feed_direction}, first, count,
-                     samples);
-      statistics.add(samples, count);
+      sampler.sample(machining.coefficients, feed, first, count, samples);
+      figures.add(sampler, machining.coefficients, feed, first, count, samples);
       if (observer) observer(first, count, samples);
       result.samples += count;
       first += count;
     }
   }
-  result.force = statistics.result();
-  result.chip_thickness_max =
-      force::largest_chip_thickness(machining.cutter, machining.engagement, {longest_feed});
+  result.figures = figures.result();
   return result;
 }
 

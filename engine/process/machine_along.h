@@ -7,8 +7,8 @@
 #include "cutter/cutter.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
+#include "force/figures.h"
 #include "force/sampler.h"
-#include "force/statistics.h"
 #include "path/interpolate.h"
 
 namespace millstudy::process {
@@ -20,12 +20,12 @@ struct Machining {
   force::Coefficients coefficients;
   double spindle_speed = 0.0;  ///< n [rev/s], > 0
   int angular_steps = 360;     ///< force samples per revolution
+  force::FigureRequest figures = {};
 };
 
 /// Forces over the whole path, in machine axes.
 struct PathForces {
-  force::ForceStatistics force;
-  double chip_thickness_max = 0.0;  ///< [mm], over the path
+  force::ForceFigures figures;
   std::int64_t samples = 0;
 };
 

@@ -7,17 +7,12 @@
 namespace millstudy::study {
 namespace {
 
-std::string text_of(const Setting& setting) {
-  const CurvePtr* curve = std::get_if<CurvePtr>(&setting);
-  return curve ? (*curve)->canonical : to_string(setting);
-}
-
 std::string text_of(const Axis& axis) {
   std::string text = fmt::format("axis {} = {}", axis.path, fmt::join(axis.numbers, " "));
   for (std::size_t i = 0; i < axis.labels.size(); ++i) {
     text += fmt::format(" [{}", axis.labels[i]);
     for (const Assignment& assignment : axis.settings[i]) {
-      text += fmt::format(" {} = {}", assignment.key->path, text_of(assignment.setting));
+      text += fmt::format(" {} = {}", assignment.key->path, to_string(assignment.setting));
     }
     text += ']';
   }
@@ -34,11 +29,14 @@ std::string text_of(const Limit& limit) {
 }  // namespace
 
 std::string canonical_text(const Study& study, const SettingMap& settings, const Given& given) {
+  const Outputs& outputs = study.outputs;
   std::string text =
-      fmt::format("millstudy study 1\nkind {}\ntraces {}\n", study.kind->name, study.traces);
+      fmt::format("millstudy study 1\nkind {}\ntraces {}\nharmonics {}\nflutes {}\n",
+                  study.kind->name, outputs.traces, outputs.harmonics, outputs.flutes);
   for (const auto& [path, setting] : settings) {
     const Key* key = study.kind->find_key(path);
-    if (key->field && !given.swept(path)) text += fmt::format("{} = {}\n", path, text_of(setting));
+    if (key->field && !given.swept(path))
+      text += fmt::format("{} = {}\n", path, to_string(setting));
   }
   if (study.axes.empty()) return text;
   text += study.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";

@@ -1,13 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "study/case.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/error.h"
 #include "core/units.h"
 #include "cutter/envelope.h"
 
 namespace millstudy::study {
+
+force::Coefficients scaled_coefficients(const Case& point) {
+  const double chip = point.law.cutting_scale;
+  const double edge = point.law.edge_scale;
+  const force::Coefficients& k = point.coefficients;
+  const force::Coefficients given = point.law.model == CoefficientModel::orthogonal
+                                        ? force::Coefficients{1.0, 1.0, 1.0, k.Kte, k.Kre, k.Kae}
+                                        : k;
+  return {chip * given.Ktc, chip * given.Krc, chip * given.Kac,
+          edge * given.Kte, edge * given.Kre, edge * given.Kae};
+}
+
+force::Variation variation(const Case& point) {
+  const CoefficientLaw& law = point.law;
+  const auto empty = [](const std::vector<double>& numbers) { return numbers.empty(); };
+  force::Variation result;
+  if (!std::all_of(law.height.table.begin(), law.height.table.end(), empty) ||
+      !std::all_of(law.height.polynomial.begin(), law.height.polynomial.end(), empty)) {
+    result.height = std::make_shared<const force::HeightFactors>(law.height);
+  }
+  if (law.model == CoefficientModel::orthogonal) {
+    result.orthogonal = law.orthogonal;
+  } else {
+    result.size_exponent = law.size_exponent;
+    result.reference_chip_thickness = law.reference_chip_thickness.value_or(1.0);
+  }
+  return result;
+}
 
 double feed_rate(const Case& point) {
   if (point.cut.feed_rate) return *point.cut.feed_rate;
@@ -21,8 +51,17 @@ double feed_per_tooth(const Case& point) {
 
 force::Engagement engagement(const Case& point) {
   const CutSection& cut = point.cut;
+  if (cut.axial_depth > point.cutter.flute_length.value_or(cut.axial_depth)) {
+    throw core::CaseError("cut.axial_depth_mm must be <= cutter.flute_length_mm");
+  }
+  if (cut.axial_depth > cutter::Envelope(point.cutter).length()) {
+    throw core::CaseError("cut.axial_depth_mm must be <= the height of the cutter's envelope");
+  }
   if (cut.axial_depth > force::largest_axial_depth(point.cutter)) {
     throw core::CaseError("cut.axial_depth_mm must be <= 1000 turns of the helix");
+  }
+  if (cut.axial_depth > point.stick_out.value_or(cut.axial_depth)) {
+    throw core::CaseError("cut.axial_depth_mm must be <= cutter.stick_out_mm");
   }
   if (!cut.milling) {
     if (*cut.exit_angle <= *cut.entry_angle) {

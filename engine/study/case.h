@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "cutter/cutter.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
+#include "force/variation.h"
 #include "path/interpolate.h"
 #include "study/setting.h"
 
 namespace millstudy::study {
 
 enum class Milling { slot, up, down };
+
+/// Where along the path the workpiece ends: the tool then comes in, or goes out, through its side.
+enum class Stock { endless, entry, exit, both };
+
+/// Where the chip coefficients come from.
+enum class CoefficientModel { constant, orthogonal };
 
 struct PathSection {
   CurvePtr curve;
@@ -27,18 +36,45 @@ struct CutSection {
   double spindle_speed = 0.0;            ///< [rev/s]
   std::optional<double> feed_rate;       ///< [mm/s]; this or the next
   std::optional<double> feed_per_tooth;  ///< [mm]
+  Stock stock = Stock::endless;
+};
+
+/// How the six coefficients vary; see force::Variation.
+struct CoefficientLaw {
+  CoefficientModel model = CoefficientModel::constant;
+  double cutting_scale = 1.0;                      ///< wear: times the chip coefficients
+  double edge_scale = 1.0;                         ///< wear: times the edge coefficients
+  std::array<double, 3> size_exponent{};           ///< of Ktc, Krc, Kac
+  std::optional<double> reference_chip_thickness;  ///< [mm], with an exponent
+  force::HeightFactors height;                     ///< all empty: the same at every height
+  force::OrthogonalData orthogonal;                ///< of model orthogonal
+};
+
+/// Where the coefficients hold: least and most; empty where nobody says.
+struct Validity {
+  std::vector<double> feed_per_tooth;  ///< [mm]
+  std::vector<double> cutting_speed;   ///< [mm/s]
+  std::vector<double> axial_depth;     ///< [mm]
 };
 
 /// One point of a study in native units: what the keys set and the kinds compute from.
 struct Case {
   PathSection path;
   cutter::Cutter cutter;
-  force::Coefficients coefficients;
+  std::optional<double> stick_out;   ///< from the tip to the holder [mm]
+  force::Coefficients coefficients;  ///< as given: see scaled_coefficients()
+  CoefficientLaw law;
+  Validity valid;
   CutSection cut;
   force::EdgeRule edge_rule;
   int angular_steps = 360;
 };
 
+/// The six coefficients that forces are computed with: those given times the scales; for model
+/// orthogonal the three of the chip are the scale alone, a factor of what variation() gives.
+force::Coefficients scaled_coefficients(const Case& point);
+/// How these vary along the edge and with the chip.
+force::Variation variation(const Case& point);
 /// Feed rate [mm/s], from feed per tooth where that is given.
 double feed_rate(const Case& point);
 /// Feed per tooth [mm], from feed rate where that is given.

@@ -59,8 +59,15 @@ void check_cut_keys(const Given& given, const Case& base, Faults& faults) {
 }
 
 void check_cut(const Given& given, const Case& base, Faults& faults) {
-  if (!given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg", "cut.exit_deg",
-                        "cutter.diameter_mm", "cutter.helix_deg", "cut.axial_depth_mm"})) {
+  const bool profile_is_missing =
+      base.cutter.shape == cutter::Shape::profile && !base.cutter.profile;
+  if (!profile_is_missing &&
+      !given.any_swept({"cut.milling", "cut.radial_depth_mm", "cut.entry_deg", "cut.exit_deg",
+                        "cutter.shape", "cutter.diameter_mm", "cutter.helix_deg",
+                        "cutter.corner_radius_mm", "cutter.taper_deg", "cutter.tip_angle_deg",
+                        "cutter.corner_centre_radius_mm", "cutter.corner_centre_height_mm",
+                        "cutter.lead", "cutter.profile_file", "cutter.flute_length_mm",
+                        "cutter.stick_out_mm", "cut.axial_depth_mm"})) {
     try {
       engagement(base);
     } catch (const core::CaseError& error) {
@@ -70,6 +77,8 @@ void check_cut(const Given& given, const Case& base, Faults& faults) {
       }
       faults.add(given.place({"cut.radial_depth_mm", "cut.exit_deg", "cut.axial_depth_mm"}),
                  std::move(text));
+    } catch (const core::InputError&) {
+      // The cutter is at fault, which check_cutter() tells.
     }
   }
   if (!given.any_swept({"cut.feed_rate_mm_per_min", "cut.feed_per_tooth_mm",

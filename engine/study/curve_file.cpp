@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "study/faults.h"
+#include "study/file_text.h"
 #include "study/suggest.h"
 
 namespace millstudy::study {
@@ -17,24 +18,6 @@ constexpr std::array<std::string_view, 10> kCurveKeys = {
     "degree", "knots",  "points_mm", "points_um", "weights",
     "name",   "source", "units",     "licence",   "description"};
 constexpr std::size_t kFirstText = 5;  // from here on: words for people
-
-std::vector<double> number_list(const core::Value& value, std::string_view key, Faults& faults) {
-  std::vector<double> numbers;
-  if (!value.is_array()) {
-    faults.add(value.place,
-               fmt::format("{} must be a list of numbers, not {}", key, type_name(value)));
-    return numbers;
-  }
-  for (const core::Value& item : value.array()) {
-    if (!item.is_number()) {
-      faults.add(item.place, fmt::format("{}[{}] must be a number, not {}", key, numbers.size(),
-                                         type_name(item)));
-      return numbers;
-    }
-    numbers.push_back(item.number());
-  }
-  return numbers;
-}
 
 std::vector<path::Vec3> point_list(const core::Value& value, std::string_view key, double scale,
                                    Faults& faults) {

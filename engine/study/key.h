@@ -15,7 +15,7 @@
 
 namespace millstudy::study {
 
-enum class KeyType { number, integer, choice, flag, text, file };
+enum class KeyType { number, integer, numbers, number_or_numbers, choice, flag, text, file };
 
 /// Allowed numbers: from low to high, each end inclusive unless it is open.
 struct Range {
@@ -34,12 +34,43 @@ struct Range {
 /// What a key has when nobody gives it.
 struct Required {};
 struct Optional {};
-using Default = std::variant<Required, Optional, double, std::string_view>;
+/// Required where another key, a choice, is this; elsewhere the key has what a fresh case has.
+struct RequiredFor {
+  std::string_view key;
+  std::string_view choice;
+};
+using Default = std::variant<Required, Optional, RequiredFor, double, std::string_view>;
+
+/// Of use only where another key, a choice, is one of these; of no key: always.
+struct OnlyFor {
+  std::string_view key = {};
+  std::vector<std::string_view> choices = {};
+};
+
+/// How many numbers a list may have.
+struct Count {
+  std::size_t least = 1;
+  std::size_t most = 1000;
+};
+
+/// One number for all, or a list with one for each; the number is then the first of them.
+struct NumberOrNumbers {
+  double* number;
+  std::vector<double>* numbers;
+};
+
+/// Angles that make up a full turn: a list that does so to a millionth of a degree is scaled to do
+/// so to rounding.
+struct PartsOfTurn {
+  std::vector<double>* angles;
+};
 
 /// The place in a case that a key sets. A choice sets an enumeration whose values are declared in
 /// the order of the key's choices.
-using Field = std::variant<double*, std::optional<double>*, int*, CurvePtr*, path::Method*,
-                           cutter::Shape*, force::Rule*, std::optional<Milling>*>;
+using Field = std::variant<double*, std::optional<double>*, int*, std::vector<double>*,
+                           NumberOrNumbers, PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*,
+                           cutter::Shape*, cutter::Lead*, cutter::EdgeMeasure*, force::Rule*,
+                           std::optional<Milling>*, Stock*, CoefficientModel*>;
 
 /// One key of a study: the only place that says what it is called, what it may be and what it
 /// sets. Validation, the key reference, sweep axes and the case of a point all come from here.
@@ -52,6 +83,8 @@ struct Key {
   std::string_view help;  ///< one line: its name, then what else there is to say after : or ;
   Field (*field)(Case&) = nullptr;
   std::vector<std::string_view> choices = {};  ///< of a choice
+  OnlyFor only_for = {};
+  Count count = {};  ///< of a list
 
   /// Last part of the path: axial_depth_mm.
   std::string_view name() const { return path.substr(path.rfind('.') + 1); }
@@ -60,7 +93,12 @@ struct Key {
   /// General keys set nothing and stay the same over a sweep.
   bool sweepable() const { return field != nullptr || type == KeyType::file; }
   bool required() const { return std::holds_alternative<Required>(fallback); }
-  bool numeric() const { return type == KeyType::number || type == KeyType::integer; }
+  /// It can be one number: axes of it have a range, limits can be put on it.
+  bool numeric() const {
+    return type == KeyType::number || type == KeyType::integer ||
+           type == KeyType::number_or_numbers;
+  }
+  bool takes_list() const { return type == KeyType::numbers || type == KeyType::number_or_numbers; }
 };
 
 /// A unit that keys and columns may have: what the engine calls native is factor / divisor of it.
@@ -74,6 +112,9 @@ struct Unit {
 /// The unit of that name; every key and quantity uses one of the table.
 const Unit& unit_named(std::string_view name);
 
+/// What a study says that lacks the key: "cut.axial_depth_mm [mm] is missing: axial depth of cut".
+std::string missing(const Key& key);
+
 /// Keys by section, as studies use them.
 std::span<const Key> general_keys();      ///< schema_version, [study]; set nothing
 std::span<const Key> output_keys();       ///< [output], for kinds with traces; sets nothing
@@ -82,20 +123,24 @@ std::span<const Key> path_feed_keys();    ///< [cut], all that kind path takes o
 std::span<const Key> cutter_keys();       ///< [cutter]
 std::span<const Key> coefficient_keys();  ///< [coefficients]
 std::span<const Key> cut_keys();          ///< [cut]
+std::span<const Key> stock_keys();        ///< [cut], for kinds with a path
 std::span<const Key> numerics_keys();     ///< [numerics]
 
 /// The setting that a value of a file stands for.
-/// @throws core::InputError of one fault at the value's place: wrong type, not finite, out of
-/// range, not a choice. A file key yields the path as written; resolve() reads it.
+/// @throws core::InputError at the value's place, of a list with every fault: wrong type, not
+/// finite, out of range, not a choice. A file key yields the path as written; resolve() reads it.
 Setting checked_setting(const Key& key, const core::Value& value);
+
+/// What the key has where it is not given.
+Setting default_setting(const Key& key);
 
 /// Puts a checked setting into the case, in native units.
 void apply(const Key& key, const Setting& setting, Case& target);
 
-/// The value of a numeric key in the key's unit; nullopt where the case has none.
+/// The value of a numeric key in the key's unit; nullopt where the case has none, or a list.
 std::optional<double> read(const Key& key, const Case& source);
 
-/// How a setting is written in messages, labels and the study hash.
+/// How a setting is written in messages, labels and, with all its numbers, the study hash.
 std::string to_string(const Setting& setting);
 
 }  // namespace millstudy::study

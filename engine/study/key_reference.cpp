@@ -6,6 +6,14 @@
 namespace millstudy::study {
 namespace {
 
+std::string count_words(const Count& count) {
+  if (count.least == count.most) return fmt::format("list of {} numbers", count.least);
+  if (count.most < Count{}.most) {
+    return fmt::format("list of {} to {} numbers", count.least, count.most);
+  }
+  return "list of numbers";
+}
+
 std::string values(const Key& key) {
   switch (key.type) {
     case KeyType::choice:
@@ -20,17 +28,35 @@ std::string values(const Key& key) {
       return "whole number " + key.range.words();
     case KeyType::number:
       return "number " + key.range.words();
+    case KeyType::numbers:
+      return count_words(key.count) + ' ' + key.range.words();
+    case KeyType::number_or_numbers:
+      return "number or " + count_words(key.count) + ' ' + key.range.words();
   }
   return "";
 }
 
 std::string fallback(const Key& key) {
   if (key.required()) return "required";
+  if (const auto* only = std::get_if<RequiredFor>(&key.fallback)) {
+    return fmt::format("required for {}", only->choice);
+  }
   if (const auto* number = std::get_if<double>(&key.fallback)) return fmt::format("{}", *number);
   if (const auto* text = std::get_if<std::string_view>(&key.fallback)) {
     return fmt::format("\"{}\"", *text);
   }
   return key.type == KeyType::flag ? "false" : "";
+}
+
+std::string meaning(const Key& key) {
+  const OnlyFor& only = key.only_for;
+  if (only.key.empty()) return std::string(key.help);
+  return fmt::format("{} ({} {})", key.help, only.key.substr(only.key.rfind('.') + 1),
+                     fmt::join(only.choices, ", "));
+}
+
+bool is_required(const Key& key) {
+  return key.required() || std::holds_alternative<RequiredFor>(key.fallback);
 }
 
 }  // namespace
@@ -49,12 +75,12 @@ std::string key_reference(const Kind& kind, bool markdown) {
     for (const Key& key : section) {
       if (markdown) {
         text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.unit, values(key),
-                            fallback(key), key.help);
+                            fallback(key), meaning(key));
       } else {
         text += fmt::format(
-            "  {:<30} {:<7} {}\n  {:<38} {}{}{}\n", key.path, key.unit, key.help, "", values(key),
-            fallback(key).empty() ? "" : "; ",
-            key.required() || fallback(key).empty() ? fallback(key) : "default " + fallback(key));
+            "  {:<30} {:<7} {}\n  {:<38} {}{}{}\n", key.path, key.unit, meaning(key), "",
+            values(key), fallback(key).empty() ? "" : "; ",
+            is_required(key) || fallback(key).empty() ? fallback(key) : "default " + fallback(key));
       }
     }
   }

@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The key table. A line here is all it takes to give a study a new key.
-#include "study/key.h"
+// The key table; [cutter] and [coefficients] have files of their own. A line here is all it takes
+// to give a study a new key.
+#include "study/key_table.h"
 
 namespace millstudy::study {
-namespace {
 
-constexpr auto kNumber = KeyType::number;
-constexpr auto kInteger = KeyType::integer;
-constexpr auto kChoice = KeyType::choice;
-constexpr auto kText = KeyType::text;
-constexpr auto kFlag = KeyType::flag;
-constexpr auto kFile = KeyType::file;
-
-/// From above 0.
-constexpr Range up_to(double high) {
-  return {0.0, high, true, false};
-}
-
-constexpr Range kCoefficient{-1e6, 1e6};
-
-// What a key sets: MILLSTUDY_SETS(cut.axial_depth) is that member of the case.
-#define MILLSTUDY_SETS(member) [](Case& c) -> Field { return &c.member; }
-
-}  // namespace
+using namespace table;
 
 // clang-format off
 
@@ -39,6 +22,10 @@ std::span<const Key> general_keys() {
 std::span<const Key> output_keys() {
   static const std::vector<Key> keys = {
       {"output.traces", kFlag, "", {}, Optional{}, "keep time histories (float32)"},
+      {"output.harmonics", kInteger, "", {0.0, 100.0}, 0.0,
+       "harmonics: amplitudes of forces and torque at 1 .. this many times the tooth passing frequency"},
+      {"output.per_flute", kFlag, "", {}, Optional{},
+       "chip thickness and load share of every flute"},
   };
   return keys;
 }
@@ -67,42 +54,6 @@ std::span<const Key> path_keys() {
   return keys;
 }
 
-std::span<const Key> cutter_keys() {
-  static const std::vector<Key> keys = {
-      {"cutter.cutter_file", kFile, "", {}, Optional{},
-       "cutter: keys of this section from a TOML file, where they are not given here"},
-      {"cutter.shape", kChoice, "", {}, Required{},
-       "envelope of the cutter", MILLSTUDY_SETS(cutter.shape), {"flat", "ball"}},
-      {"cutter.diameter_mm", kNumber, "mm", {1e-3, 1000.0}, Required{},
-       "diameter", MILLSTUDY_SETS(cutter.diameter)},
-      {"cutter.flutes", kInteger, "", {1.0, 100.0}, Required{},
-       "number of flutes", MILLSTUDY_SETS(cutter.flutes)},
-      {"cutter.helix_deg", kNumber, "deg", {-80.0, 80.0}, Required{},
-       "helix angle; negative is left-hand", MILLSTUDY_SETS(cutter.helix_angle)},
-  };
-  return keys;
-}
-
-std::span<const Key> coefficient_keys() {
-  static const std::vector<Key> keys = {
-      {"coefficients.coefficients_file", kFile, "", {}, Optional{},
-       "coefficients: keys of this section from a TOML file, where they are not given here"},
-      {"coefficients.Ktc_N_per_mm2", kNumber, "N/mm2", kCoefficient, Required{},
-       "tangential cutting-force coefficient", MILLSTUDY_SETS(coefficients.Ktc)},
-      {"coefficients.Krc_N_per_mm2", kNumber, "N/mm2", kCoefficient, Required{},
-       "radial cutting-force coefficient", MILLSTUDY_SETS(coefficients.Krc)},
-      {"coefficients.Kac_N_per_mm2", kNumber, "N/mm2", kCoefficient, Required{},
-       "axial cutting-force coefficient", MILLSTUDY_SETS(coefficients.Kac)},
-      {"coefficients.Kte_N_per_mm", kNumber, "N/mm", kCoefficient, Required{},
-       "tangential edge-force coefficient", MILLSTUDY_SETS(coefficients.Kte)},
-      {"coefficients.Kre_N_per_mm", kNumber, "N/mm", kCoefficient, Required{},
-       "radial edge-force coefficient", MILLSTUDY_SETS(coefficients.Kre)},
-      {"coefficients.Kae_N_per_mm", kNumber, "N/mm", kCoefficient, Required{},
-       "axial edge-force coefficient", MILLSTUDY_SETS(coefficients.Kae)},
-  };
-  return keys;
-}
-
 std::span<const Key> cut_keys() {
   static const std::vector<Key> keys = {
       {"cut.feed_rate_mm_per_min", kNumber, "mm/min", up_to(1e6), Optional{},
@@ -121,6 +72,15 @@ std::span<const Key> cut_keys() {
        "entry angle: immersion at which teeth enter, from +y towards +x", MILLSTUDY_SETS(cut.entry_angle)},
       {"cut.exit_deg", kNumber, "deg", up_to(180.0), Optional{},
        "exit angle: immersion at which teeth leave", MILLSTUDY_SETS(cut.exit_angle)},
+  };
+  return keys;
+}
+
+std::span<const Key> stock_keys() {
+  static const std::vector<Key> keys = {
+      {"cut.stock", kChoice, "", {}, "endless",
+       "where the path begins or ends at the side of the workpiece", MILLSTUDY_SETS(cut.stock),
+       {"endless", "entry", "exit", "both"}},
   };
   return keys;
 }

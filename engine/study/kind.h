@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,15 +20,28 @@ struct Given {
     const Key* key = nullptr;
     core::Place place;
     bool swept = false;  ///< an axis gives it, so its value differs from point to point
+    std::vector<std::string> choices = {};  ///< what a choice is, at any point of the study
   };
   std::map<std::string_view, Entry> entries;  ///< by dotted path
 
   bool has(std::string_view path) const { return entries.contains(path); }
   bool swept(std::string_view path) const;
+  /// True if the key is given and this choice at one of the points.
+  bool may_be(std::string_view path, std::string_view choice) const;
   bool any_swept(std::initializer_list<std::string_view> paths) const;
+  /// True if any key of the section is swept.
+  bool section_swept(std::string_view section) const;
   /// Where the first of these keys stands; the whole file where none does.
   core::Place place(std::initializer_list<std::string_view> paths) const;
   core::Place file;  ///< the study itself
+};
+
+/// What a study asks for besides what its kind always gives.
+struct Outputs {
+  bool traces = false;
+  int harmonics = 0;            ///< of forces and torque, from the first
+  int flutes = 0;               ///< that have columns of their own: the most of any point, or 0
+  bool bending_moment = false;  ///< the stick-out is given
 };
 
 /// Computes one point: fills one value per column, and the trace where one is asked for.
@@ -41,14 +55,14 @@ struct Kind {
   std::string_view name;
   std::string_view help;
   std::vector<std::span<const Key>> sections;
-  std::vector<sweep::Column> columns;
+  std::vector<sweep::Column> (*columns)(const Outputs&) = nullptr;
   bool has_traces = false;
   /// Rules on which keys go together; checked even where values are at fault (those are not set).
   void (*check_keys)(const Given&, const Case& base, Faults&) = nullptr;
   /// Rules between values; those that involve a swept key are left to the points.
   void (*check)(const Given&, const Case& base, Faults&) = nullptr;
   /// A fresh evaluator for one run; what points share is kept in it.
-  EvaluatePoint (*make_evaluator)() = nullptr;
+  EvaluatePoint (*make_evaluator)(const Outputs&) = nullptr;
 
   /// The key of that path, or nullptr.
   const Key* find_key(std::string_view path) const;
@@ -62,9 +76,18 @@ std::vector<std::string_view> key_paths(const Kind& kind);
 /// All kinds, in the order of the reference.
 std::span<const Kind* const> kinds();
 
-/// Which keys of [cut] go together, for the kinds that compute forces.
+/// Which keys go together, for the kinds that compute forces.
+void check_force_keys(const Given& given, const Case& base, Faults& faults);
+/// Rules between values, for the kinds that compute forces.
+void check_force(const Given& given, const Case& base, Faults& faults);
+
+// What these two consist of, by section.
+void check_cutter_keys(const Given& given, Faults& faults);
+void check_coefficient_keys(const Given& given, Faults& faults);
 void check_cut_keys(const Given& given, const Case& base, Faults& faults);
-/// Rules between values of [cut].
+void check_cutter(const Given& given, const Case& base, Faults& faults);
+void check_coefficients(const Given& given, const Case& base, Faults& faults);
+/// Rules of [cut].
 void check_cut(const Given& given, const Case& base, Faults& faults);
 /// Rules of [numerics].
 void check_numerics(const Given& given, const Case& base, Faults& faults);

@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "force/chip_thickness.h"
+#include "force/figures.h"
 #include "study/kinds.h"
 #include "study/rows.h"
+#include "study/rules.h"
 #include "study/shared_sampler.h"
 
 namespace millstudy::study {
 namespace {
 
-void check(const Given& given, const Case& base, Faults& faults) {
-  check_cut(given, base, faults);
-  check_numerics(given, base, faults);
-}
-
-EvaluatePoint make_evaluator() {
-  return [samplers = SharedSamplers()](const Case& point, std::span<double> row,
-                                       sweep::Trace* trace) {
+EvaluatePoint make_evaluator(const Outputs& outputs) {
+  return [outputs, samplers = SharedSamplers()](const Case& point, std::span<double> row,
+                                                sweep::Trace* trace) {
+    check_point_coefficients(point);
     check_feed(point);
-    const force::Engagement engaged = engagement(point);
-    const auto sampler = samplers.get(point, engaged);
+    const force::FigureRequest request = figure_request(point, outputs);
+    const auto sampler = samplers.get(point, engagement(point), request.stick_out.has_value());
+    const force::Coefficients coefficients = scaled_coefficients(point);
+    const force::Feed feed = {feed_per_tooth(point)};
     force::ForceSamples samples;
-    sampler->sample(point.coefficients, {feed_per_tooth(point)}, 0, point.angular_steps, samples);
-    force::StatisticsAccumulator statistics;
-    statistics.add(samples, point.angular_steps);
-    fill_force_row(point, statistics.result(),
-                   force::largest_chip_thickness(point.cutter, engaged, {feed_per_tooth(point)}),
-                   row);
+    sampler->sample(coefficients, feed, 0, point.angular_steps, samples);
+    force::FigureAccumulator figures(request, *sampler);
+    figures.add(*sampler, coefficients, feed, 0, point.angular_steps, samples);
+    fill_force_row(point, outputs, figures.result(), row);
     if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
   };
 }
@@ -37,10 +34,10 @@ const Kind& force_kind() {
       .help = "the cutting force over one revolution, fed along x",
       .sections = {general_keys(), cutter_keys(), coefficient_keys(), cut_keys(), numerics_keys(),
                    output_keys()},
-      .columns = force_columns(),
+      .columns = force_columns,
       .has_traces = true,
-      .check_keys = check_cut_keys,
-      .check = check,
+      .check_keys = check_force_keys,
+      .check = check_force,
       .make_evaluator = make_evaluator,
   };
   return kind;

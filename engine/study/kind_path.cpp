@@ -7,7 +7,11 @@ namespace {
 
 void no_rules(const Given&, const Case&, Faults&) {}
 
-EvaluatePoint make_evaluator() {
+std::vector<sweep::Column> columns(const Outputs&) {
+  return path_columns();
+}
+
+EvaluatePoint make_evaluator(const Outputs&) {
   return [](const Case& point, std::span<double> row, sweep::Trace*) {
     fill_path_row(measured_path(point).figures, row);
   };
@@ -20,7 +24,7 @@ const Kind& path_kind() {
       .name = "path",
       .help = "interpolate a curve: feed fluctuation, evaluations, chord error",
       .sections = {general_keys(), path_keys(), path_feed_keys()},
-      .columns = path_columns(),
+      .columns = columns,
       .has_traces = false,
       .check_keys = no_rules,
       .check = no_rules,

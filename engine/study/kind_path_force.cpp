@@ -2,6 +2,7 @@
 #include "process/machine_along.h"
 #include "study/kinds.h"
 #include "study/rows.h"
+#include "study/rules.h"
 #include "study/shared_sampler.h"
 
 namespace millstudy::study {
@@ -16,8 +17,7 @@ std::size_t bytes_of(const MeasuredPath& path) {
 }
 
 void check(const Given& given, const Case& base, Faults& faults) {
-  check_cut(given, base, faults);
-  check_numerics(given, base, faults);
+  check_force(given, base, faults);
   if (!given.swept("path.curve_file") && !base.path.curve->planar) {
     faults.add(given.place({"path.curve_file"}), kClimbs);
   }
@@ -25,21 +25,26 @@ void check(const Given& given, const Case& base, Faults& faults) {
 
 class PathForceEvaluator {
  public:
+  explicit PathForceEvaluator(const Outputs& outputs) : outputs_(outputs) {}
+
   void operator()(const Case& point, std::span<double> row, sweep::Trace* trace) const {
     if (!point.path.curve->planar) {
       throw core::CaseError(kClimbs);
     }
+    check_point_coefficients(point);
     check_feed(point);
     const force::Engagement engaged = engagement(point);
     const auto path = shared_path(point);
-    const auto sampler = samplers_.get(point, engaged);
-    const process::Machining machining{point.cutter, engaged, point.coefficients,
-                                       point.cut.spindle_speed, point.angular_steps};
+    const force::FigureRequest request = figure_request(point, outputs_);
+    const auto sampler = samplers_.get(point, engaged, request.stick_out.has_value());
+    const process::Machining machining{
+        point.cutter,        engaged, scaled_coefficients(point), point.cut.spindle_speed,
+        point.angular_steps, request};
     const process::PathForces forces = process::machine_along(
         path->interpolation, *sampler, machining, trace ? recorder(point, *trace) : nullptr);
     static const std::size_t path_count = path_columns().size();
     fill_path_row(path->figures, row.first(path_count));
-    fill_force_row(point, forces.force, forces.chip_thickness_max, row.subspan(path_count));
+    fill_force_row(point, outputs_, forces.figures, row.subspan(path_count));
   }
 
  private:
@@ -55,18 +60,19 @@ class PathForceEvaluator {
     };
   }
 
+  Outputs outputs_;
   SharedSamplers samplers_;
   std::shared_ptr<core::SharedCache<MeasuredPath>> paths_ =
       std::make_shared<core::SharedCache<MeasuredPath>>(kMostPathBytes, bytes_of);
 };
 
-EvaluatePoint make_evaluator() {
-  return PathForceEvaluator();
+EvaluatePoint make_evaluator(const Outputs& outputs) {
+  return PathForceEvaluator(outputs);
 }
 
-std::vector<sweep::Column> columns() {
+std::vector<sweep::Column> columns(const Outputs& outputs) {
   std::vector<sweep::Column> all = path_columns();
-  const std::vector<sweep::Column> force = force_columns();
+  const std::vector<sweep::Column> force = force_columns(outputs);
   all.insert(all.end(), force.begin(), force.end());
   return all;
 }
@@ -78,10 +84,10 @@ const Kind& path_force_kind() {
       .name = "path_force",
       .help = "the cutting force along an interpolated curve, in machine axes",
       .sections = {general_keys(), path_keys(), cutter_keys(), coefficient_keys(), cut_keys(),
-                   numerics_keys(), output_keys()},
-      .columns = columns(),
+                   stock_keys(), numerics_keys(), output_keys()},
+      .columns = columns,
       .has_traces = true,
-      .check_keys = check_cut_keys,
+      .check_keys = check_force_keys,
       .check = check,
       .make_evaluator = make_evaluator,
   };

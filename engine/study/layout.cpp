@@ -19,7 +19,7 @@ std::string whole_name(std::string path) {
 /// The last part of a path, or all of it where that would name two things.
 std::vector<std::string> coordinate_names(const Study& study) {
   std::multiset<std::string_view> taken(kReserved.begin(), kReserved.end());
-  for (const sweep::Column& column : study.kind->columns) taken.insert(column.name);
+  for (const sweep::Column& column : study.columns) taken.insert(column.name);
   for (const Axis& axis : study.axes) taken.insert(axis.key->name());
   std::vector<std::string> names;
   for (const Axis& axis : study.axes) {
@@ -39,7 +39,7 @@ sweep::Layout layout(const Study& study) {
     sweep::Coordinate coordinate{names[a], axis.path,
                                  std::string(unit_named(axis.key->unit).udunits),
                                  std::string(axis.key->label()), axis.numbers};
-    if (!axis.key->numeric()) coordinate.values = axis.labels;
+    if (!axis.numeric()) coordinate.values = axis.labels;
     if (study.space.design() == sweep::Design::grid) {
       result.dimensions.push_back(names[a]);
       result.shape.push_back(static_cast<std::int64_t>(axis.size()));
@@ -50,8 +50,8 @@ sweep::Layout layout(const Study& study) {
     result.dimensions = {"point"};
     result.shape = {study.space.points()};
   }
-  result.columns = study.kind->columns;
-  result.traces = study.traces && study.kind->has_traces;
+  result.columns = study.columns;
+  result.traces = study.outputs.traces && study.kind->has_traces;
   return result;
 }
 

@@ -2,22 +2,26 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <set>
 
 #include "study/canonical_text.h"
+#include "study/choice_rules.h"
 #include "study/curve_file.h"
+#include "study/file_axes.h"
+#include "study/outputs.h"
 #include "study/quantity.h"
 #include "study/section_file.h"
 #include "study/study.h"
 #include "study/suggest.h"
 #include "study/sweep_section.h"
+#include "study/validity.h"
 
 namespace millstudy::study {
 namespace {
 
-std::string missing(const Key& key) {
-  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
-  return fmt::format("{}{} is missing: {}", key.path, unit, key.help);
+/// The choice that a setting is, for Given; of other keys none.
+std::vector<std::string> choices_of(const Key& key, const Setting& setting) {
+  if (key.type != KeyType::choice) return {};
+  return {std::get<std::string>(setting)};
 }
 
 /// One study from its tree. Every step collects its faults; only what cannot go on throws.
@@ -40,7 +44,7 @@ class Resolver {
     };
     if (const core::Value* sweep = tree_.find("sweep")) {
       read_sweep(*sweep, read_file, study_, given_, faults_);
-      settle_file_axes();
+      settle_file_axes(study_, given_, is_own_, faults_);
     }
     find_missing();
     make_base();
@@ -50,6 +54,9 @@ class Resolver {
     check_limits();
     check_name();
     faults_.throw_if_any();
+    study_.outputs = asked_outputs(study_, settings_, given_);
+    study_.columns = study_.kind->columns(study_.outputs);
+    study_.warnings = left_validity(study_, given_);
     study_.canonical = canonical_text(study_, settings_, given_);
     return std::move(study_);
   }
@@ -175,35 +182,25 @@ class Resolver {
     const bool fine = faults_.collect([&] {
       if (key.type == KeyType::file) {
         std::vector<Assignment> assignments = settings_of_file(key, value, *study_.kind, load_);
-        if (!sets_anything(assignments)) refuse_idle_file(key, value.place);
-        for (Assignment& assignment : assignments) keep(std::move(assignment), value);
+        check_not_idle(key, assignments, is_own_, value.place);
+        for (Assignment& assignment : assignments) keep(std::move(assignment), key, value);
       } else {
-        settings_.insert_or_assign(key.path, checked_setting(key, value));
+        Setting setting = checked_setting(key, value);
+        given_.entries[key.path].choices = choices_of(key, setting);
+        settings_.insert_or_assign(key.path, std::move(setting));
       }
     });
     if (!fine && key.type == KeyType::file)
       reported_.push_back(key.path.substr(0, key.path.find('.')));
   }
 
-  /// False if the study itself gives every key of the file: then reading it would change nothing.
-  bool sets_anything(const std::vector<Assignment>& assignments) const {
-    return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& assignment) {
-      return assignment.key->type == KeyType::file || !is_own(*assignment.key);
-    });
-  }
-
-  [[noreturn]] static void refuse_idle_file(const Key& key, const core::Place& place) {
-    throw core::InputError(place,
-                           fmt::format("{} changes nothing: the study itself gives every key "
-                                       "of the file; leave one of them out",
-                                       key.path));
-  }
-
   /// What a file says yields to what the study says itself.
-  void keep(Assignment assignment, const core::Value& file) {
-    const std::string_view path = assignment.key->path;
-    if (assignment.key->type != KeyType::file && is_own(*assignment.key)) return;
-    given_.entries.try_emplace(path, Given::Entry{assignment.key, file.place, false});
+  void keep(Assignment assignment, const Key& file, const core::Value& value) {
+    const Key& key = *assignment.key;
+    const std::string_view path = key.path;
+    if (&key != &file && is_own(key)) return;
+    given_.entries.try_emplace(
+        path, Given::Entry{&key, value.place, false, choices_of(key, assignment.setting)});
     settings_.insert_or_assign(path, std::move(assignment.setting));
   }
 
@@ -219,7 +216,8 @@ class Resolver {
   void find_missing() {
     for (const std::span<const Key> section : study_.kind->sections) {
       for (const Key& key : section) {
-        if (key.required() && !given_.has(key.path) && !is_reported(key.path)) {
+        if (is_needed(key, *study_.kind, given_) && !given_.has(key.path) &&
+            !is_reported(key.path)) {
           faults_.add(given_.file, missing(key));
         }
       }
@@ -229,6 +227,7 @@ class Resolver {
   /// Rules on keys; one that stands there under a wrong name counts as given, and a section that is
   /// no section is judged by nothing.
   void check_keys() {
+    check_uses(*study_.kind, given_, faults_);
     Given meant = given_;
     for (const std::string_view path : reported_) {
       const Key* key = study_.kind->find_key(path);
@@ -251,48 +250,15 @@ class Resolver {
     return section && section->find(key.name());
   }
 
-  /// The files of an axis set the same keys, or what one of them sets would stay for the points of
-  /// the next; what the study gives itself, or sweeps, they do not set.
-  void settle_file_axes() {
-    for (Axis& axis : study_.axes) {
-      if (axis.key->type != KeyType::file || axis.key->field) continue;
-      std::set<const Key*> all;
-      for (std::vector<Assignment>& settings : axis.settings) {
-        if (!sets_anything(settings)) {
-          faults_.collect(
-              [&] { refuse_idle_file(*axis.key, given_.entries.at(axis.key->path).place); });
-          return;
-        }
-        std::erase_if(settings, [&](const Assignment& assignment) {
-          return is_own(*assignment.key) || has_axis(*assignment.key);
-        });
-        for (const Assignment& assignment : settings) all.insert(assignment.key);
-      }
-      const core::Place place = given_.entries.at(axis.key->path).place;
-      for (const Key* key : all) {
-        given_.entries[key->path] = {key, place, true};
-        for (std::size_t i = 0; i < axis.settings.size(); ++i) {
-          const std::vector<Assignment>& settings = axis.settings[i];
-          const bool sets = std::any_of(settings.begin(), settings.end(),
-                                        [&](const Assignment& a) { return a.key == key; });
-          if (!sets) {
-            faults_.add(place, fmt::format("sweep.axes: {} = \"{}\" does not give {}, as others do",
-                                           axis.key->path, axis.labels[i], key->path));
-          }
-        }
-      }
-    }
-  }
-
-  bool has_axis(const Key& key) const {
-    return std::any_of(study_.axes.begin(), study_.axes.end(),
-                       [&](const Axis& axis) { return axis.key == &key; });
-  }
-
   /// A limit on a key that no point has would skip them all.
   void check_limits() {
     for (const Limit& limit : study_.limits) {
       const Key* key = study_.kind->find_key(limit.quantity);
+      if (key && may_be_list(*key)) {
+        faults_.add(
+            limit.place,
+            fmt::format("sweep.where: quantity = \"{}\" is a list in this study", key->path));
+      }
       if (!key || given_.has(key->path) || !std::holds_alternative<Optional>(key->fallback))
         continue;
       const std::vector<std::string_view> derived = quantity_names(*study_.kind);
@@ -304,13 +270,19 @@ class Resolver {
     }
   }
 
+  bool may_be_list(const Key& key) const {
+    const std::vector<Setting> all = all_settings(key, study_, settings_, given_);
+    return std::any_of(all.begin(), all.end(), [](const Setting& setting) {
+      return std::holds_alternative<std::vector<double>>(setting);
+    });
+  }
+
   void make_base() {
     for (const std::span<const Key> section : study_.kind->sections) {
       for (const Key& key : section) {
-        if (const auto* number = std::get_if<double>(&key.fallback)) {
-          settings_.try_emplace(key.path, *number);
-        } else if (const auto* text = std::get_if<std::string_view>(&key.fallback)) {
-          settings_.try_emplace(key.path, std::string(*text));
+        Setting fallback = default_setting(key);
+        if (!std::holds_alternative<std::monostate>(fallback)) {
+          settings_.try_emplace(key.path, std::move(fallback));
         }
         const auto setting = settings_.find(key.path);
         if (setting != settings_.end() && key.field) apply(key, setting->second, study_.base);
@@ -318,8 +290,6 @@ class Resolver {
     }
     study_.name = text_setting("study.name");
     study_.description = text_setting("study.description");
-    const auto traces = settings_.find("output.traces");
-    study_.traces = traces != settings_.end() && std::get<bool>(traces->second);
   }
 
   /// Empty where the key is missing or at fault; that is reported elsewhere.
@@ -344,6 +314,7 @@ class Resolver {
 
   core::Value tree_;
   FileLoader load_;  // by a name relative to the folder of the study
+  IsOwn is_own_ = [this](const Key& key) { return is_own(key); };
   Faults faults_;
   Given given_;
   Study study_;

@@ -29,46 +29,6 @@ void fill_path_row(const path::PathFigures& figures, std::span<double> row) {
   }
 }
 
-std::vector<sweep::Column> force_columns() {
-  std::vector<sweep::Column> columns;
-  for (const auto& [axis, words] : {std::pair{"x", "force on the tool along x"},
-                                    {"y", "force on the tool along y"},
-                                    {"z", "force on the tool along z"},
-                                    {"resultant", "resultant force on the tool"}}) {
-    for (const auto& [statistic, prefix] : {std::pair{"mean", "mean "},
-                                            {"min", "smallest "},
-                                            {"max", "largest "},
-                                            {"rms", "root mean square "}}) {
-      columns.push_back(
-          {std::string("force_") + axis + "_" + statistic, "N", std::string(prefix) + words});
-    }
-  }
-  columns.insert(columns.end(), {
-                                    {"torque_mean", "N m", "mean spindle torque"},
-                                    {"torque_max", "N m", "largest spindle torque"},
-                                    {"power_mean", "W", "mean cutting power"},
-                                    {"chip_thickness_max", "mm", "largest uncut chip thickness"},
-                                    {"feed_per_tooth", "mm", "commanded feed per tooth"},
-                                    {"material_removal_rate", "cm3 min-1", "material removal rate"},
-                                });
-  return columns;
-}
-
-void fill_force_row(const Case& point, const force::ForceStatistics& force,
-                    double chip_thickness_max, std::span<double> row) {
-  std::size_t c = 0;
-  for (const force::Statistics& s : {force.x, force.y, force.z, force.resultant}) {
-    for (const double value : {s.mean, s.min, s.max, s.rms}) row[c++] = value;
-  }
-  const double angular_speed = 2.0 * core::kPi * point.cut.spindle_speed;  // [rad/s]
-  const double torque_mean = core::newton_metre(force.torque_mean);
-  for (const double value : {torque_mean, core::newton_metre(force.torque_max),
-                             torque_mean * angular_speed, chip_thickness_max, feed_per_tooth(point),
-                             core::cm3_per_min_from_mm3_per_s(material_removal_rate(point))}) {
-    row[c++] = value;
-  }
-}
-
 void append_samples(const Case& point, std::int64_t first, std::int64_t count,
                     const force::ForceSamples& samples, sweep::Trace& trace) {
   for (std::int64_t i = 0; i < count; ++i) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include "force/statistics.h"
+#include "force/figures.h"
 #include "path/figures.h"
 #include "study/case.h"
+#include "study/kind.h"
 #include "sweep/block.h"
 #include "sweep/layout.h"
 
@@ -17,11 +17,15 @@ namespace millstudy::study {
 std::vector<sweep::Column> path_columns();
 void fill_path_row(const path::PathFigures& figures, std::span<double> row);
 
+/// What to measure of the force of a point, for these outputs.
+force::FigureRequest figure_request(const Case& point, const Outputs& outputs);
+
 /// The force variables, in the order of fill_force_row().
-std::vector<sweep::Column> force_columns();
-/// @param chip_thickness_max  [mm]
-void fill_force_row(const Case& point, const force::ForceStatistics& force,
-                    double chip_thickness_max, std::span<double> row);
+std::vector<sweep::Column> force_columns(const Outputs& outputs);
+/// @param figures  of the shape that outputs ask for
+/// @param row      flutes that the point does not have, and a moment without a stick-out, are NaN
+void fill_force_row(const Case& point, const Outputs& outputs, const force::ForceFigures& figures,
+                    std::span<double> row);
 
 /// Interpolates the path of a case and measures it.
 struct MeasuredPath {

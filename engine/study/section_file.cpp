@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "study/section_file.h"
 
-#include <algorithm>
-#include <array>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "study/curve_file.h"
+#include "study/file_text.h"
+#include "study/profile_file.h"
 #include "study/suggest.h"
 
 namespace millstudy::study {
 namespace {
 
-/// Words for people in a file that stands for a section.
-constexpr std::array<std::string_view, 5> kFileText = {"name", "source", "units", "licence",
-                                                       "description"};
-
-bool is_file_text(std::string_view key) {
-  return std::find(kFileText.begin(), kFileText.end(), key) != kFileText.end();
+/// What coefficients were measured with; for people.
+bool is_origin(std::string_view section, std::string_view name) {
+  return section == "coefficients" && (name == "workpiece" || name == "tool");
 }
 
 core::Value load_named(const Key& key, const std::string& name, const core::Place& place,
@@ -48,21 +46,41 @@ std::vector<std::string_view> names_in_file(std::string_view section, const Kind
   return names;
 }
 
+/// What the file of a key that it sets alone holds.
+Setting read_object(const Key& key, const core::Value& content) {
+  Case target;
+  if (std::holds_alternative<ProfilePtr*>(key.field(target))) return read_profile(content);
+  return read_curve(content);
+}
+
+/// A file that a file names: relative to the folder of that one.
+core::Value beside(const std::string& file, const core::Value& name) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  return {(folder / name.string()).string(), name.place};
+}
+
 }  // namespace
 
 std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value, const Kind& kind,
                                          const FileLoader& load) {
-  const Setting path = checked_setting(key, value);
-  const core::Value content = load_named(key, std::get<std::string>(path), value.place, load);
-  if (key.field) return {{&key, read_curve(content)}};
+  const auto path = std::get<std::string>(checked_setting(key, value));
+  const core::Value content = load_named(key, path, value.place, load);
+  if (key.field) return {{&key, read_object(key, content)}};
   const std::string section(key.path.substr(0, key.path.find('.')));
   std::vector<Assignment> assignments;
   Faults faults;
   for (const auto& [name, member] : content.table()) {
     const Key* inner = kind.find_key(section + '.' + name);
     if (inner && inner->field) {
-      faults.collect([&] { assignments.push_back({inner, checked_setting(*inner, member)}); });
-    } else if (!is_file_text(name)) {
+      faults.collect([&] {
+        Setting setting = checked_setting(*inner, member);
+        if (inner->type == KeyType::file) {
+          assignments.push_back(settings_of_file(*inner, beside(path, member), kind, load).front());
+        } else {
+          assignments.push_back({inner, std::move(setting)});
+        }
+      });
+    } else if (!is_file_text(name) && !is_origin(section, name)) {
       faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
                                            suggestion(name, names_in_file(section, kind))));
     }

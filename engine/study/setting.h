@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "cutter/cutter.h"
 #include "path/curve.h"
 
 namespace millstudy::study {
@@ -17,7 +19,10 @@ struct StudyCurve {
 };
 using CurvePtr = std::shared_ptr<const StudyCurve>;
 
-/// The checked value of one key, in the unit of the key.
-using Setting = std::variant<double, bool, std::string, CurvePtr>;
+using ProfilePtr = std::shared_ptr<const cutter::Profile>;
+
+/// The checked value of one key, in the unit of the key; monostate where a point does not give it.
+using Setting = std::variant<std::monostate, double, bool, std::string, std::vector<double>,
+                             CurvePtr, ProfilePtr>;
 
 }  // namespace millstudy::study

@@ -20,16 +20,17 @@ struct Assignment {
   Setting setting;
 };
 
-/// One axis of the sweep: the values of a number, or labelled sets of settings (a choice sets one
-/// key, a file may set several).
+/// One axis of the sweep: the values of a number, or labelled sets of settings (a choice or a list
+/// sets one key, a file may set several).
 struct Axis {
   std::string path;  ///< dotted, as in the study
   const Key* key = nullptr;
-  std::vector<double> numbers;                    ///< of a numeric key, in its unit; or
+  std::vector<double> numbers;                    ///< in the unit of the key; or
   std::vector<std::string> labels;                ///< one per value, with
   std::vector<std::vector<Assignment>> settings;  ///< what each label sets
 
-  std::size_t size() const { return key->numeric() ? numbers.size() : labels.size(); }
+  bool numeric() const { return labels.empty(); }
+  std::size_t size() const { return numeric() ? numbers.size() : labels.size(); }
 };
 
 /// A limit on a quantity: points outside are skipped. Bounds are inclusive.
@@ -47,13 +48,16 @@ struct Study {
   std::string description;
   const Kind* kind = nullptr;
   Case base;
-  bool traces = false;
+  Outputs outputs;
+  std::vector<sweep::Column> columns;  ///< those of the kind for these outputs
   std::vector<Axis> axes;
   std::vector<Limit> limits;
   sweep::ParameterSpace space{sweep::Design::grid, {}};
   /// The resolved study as text: what study_hash is the hash of. Defaults, overrides and the
   /// contents of files are in it; name, description and comments are not.
   std::string canonical;
+  /// What it does at the user's own risk; the program tells, and goes on.
+  std::vector<core::Fault> warnings;
 };
 
 /// Reads a file that a study names; throws core::InputError.

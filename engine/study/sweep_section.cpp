@@ -93,7 +93,8 @@ class SweepReader {
                                 key.path, type_name(value)));
       }
     });
-    given_.entries[key.path] = {&key, value.place, true};
+    given_.entries[key.path] = {&key, value.place, true, {}};
+    if (key.type == KeyType::choice) given_.entries[key.path].choices = axis.labels;
     if (fine) study_.axes.push_back(std::move(axis));
   }
 
@@ -111,6 +112,7 @@ class SweepReader {
   void read_list(const Key& key, const core::Value& list, Axis& axis) {
     if (list.array().empty()) fail(list, fmt::format("sweep.axes: {} has no values", key.path));
     check_length(key, list, static_cast<double>(list.array().size()));
+    check_lists(key, list);
     Faults faults;
     for (const core::Value& item : list.array()) {
       faults.collect([&] { add_value(key, item, axis); });
@@ -118,13 +120,26 @@ class SweepReader {
     faults.throw_if_any();
   }
 
+  /// What a key with a list takes: lists, or numbers where it is one of them.
+  static void check_lists(const Key& key, const core::Value& values) {
+    if (!key.takes_list()) return;
+    const auto lists = std::count_if(values.array().begin(), values.array().end(),
+                                     [](const core::Value& item) { return item.is_array(); });
+    if (lists == std::ssize(values.array()) || (key.numeric() && lists == 0)) return;
+    fail(
+        values,
+        key.numeric()
+            ? fmt::format("sweep.axes: {} mixes numbers and lists: give one or the other", key.path)
+            : fmt::format("sweep.axes: {0} must be a list of lists: [[...], [...]]", key.path));
+  }
+
   void add_value(const Key& key, const core::Value& item, Axis& axis) {
     Setting setting = checked_setting(key, item);
-    if (key.numeric()) {
+    if (std::holds_alternative<double>(setting)) {
       axis.numbers.push_back(std::get<double>(setting));
       return;
     }
-    axis.labels.push_back(item.string());
+    axis.labels.push_back(to_string(setting));
     axis.settings.push_back(key.type == KeyType::file
                                 ? read_file_(key, item)
                                 : std::vector<Assignment>{{&key, std::move(setting)}});
@@ -162,7 +177,9 @@ class SweepReader {
       }
     }
     if (!key.numeric()) {
-      fail(range, fmt::format("sweep.axes: {} is not a number; give a list", key.path));
+      fail(range, fmt::format("sweep.axes: {} is {}", key.path,
+                              key.takes_list() ? "a list; give a list of lists: [[...], [...]]"
+                                               : "not a number; give a list"));
     }
     const double from = range_member(key, range, "from");
     const double to = range_member(key, range, "to");

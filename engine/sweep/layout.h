@@ -14,6 +14,7 @@ struct Column {
   std::string name;       ///< as in the file: force_x_mean
   std::string units;      ///< UDUNITS: N, mm, percent, 1
   std::string long_name;  ///< for plots: "mean force on the tool along x"
+  bool may_be_missing = false;  ///< NaN is no failure: not every point has this
 };
 
 /// The values that one parameter takes.

@@ -55,8 +55,8 @@ std::int64_t whole_run(int feed_rates, int threads) {
 /// The baseline of the overhead: the same points one after another, nothing around them.
 void bare_computation(int feed_rates) {
   const study::Study study = study::resolve(study_tree(feed_rates), io::read_toml);
-  const study::EvaluatePoint evaluate = study.kind->make_evaluator();
-  std::vector<double> row(study.kind->columns.size());
+  const study::EvaluatePoint evaluate = study.kind->make_evaluator(study.outputs);
+  std::vector<double> row(study.columns.size());
   for (std::int64_t i = 0; i < study.space.points(); ++i) {
     const study::Case point = study::case_at(study, i);
     if (study::feed_per_tooth(point) <= 0.15 * (1.0 + 1e-12)) evaluate(point, row, nullptr);

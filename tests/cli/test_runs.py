@@ -157,6 +157,40 @@ class Run(ProgramTest):
                 self.assertEqual(file[name][()].tobytes(), other[name][()].tobytes())
 
 
+    def test_lists_can_be_swept(self):
+        self.write(SLOT.replace("flutes = 2", "flutes = 4") + '[sweep.axes]\n"cutter.pitch_deg" = '
+                   "[[90, 90, 90, 90], [80, 100, 80, 100], [120, 120, 120]]\n")
+        done = self.millstudy("run", "study.toml", code=3)
+        self.assertIn("  1 failed: cutter.pitch_deg must have one angle for each flute\n", done.stdout)
+        with h5py.File(self.folder / "slot.h5") as file:
+            self.assertEqual(file["pitch_deg"].asstr()[()].tolist(),
+                             ["90 90 90 90", "80 100 80 100", "120 120 120"])
+            self.assertEqual(file["status"][()].tolist(), [0, 0, 1])
+
+    def test_outputs_that_are_asked_for(self):
+        self.write(SLOT.replace("helix_deg = 30.0", "helix_deg = 30.0\nstick_out_mm = 40.0") +
+                   '[output]\nharmonics = 2\nper_flute = true\n[sweep.axes]\n"cutter.flutes" = [1, 3]\n')
+        self.millstudy("run", "study.toml")
+        with h5py.File(self.folder / "slot.h5") as file:
+            self.assertEqual((file["status"][()] == 0).tolist(), [True, True])
+            for name in ("force_x_harmonic_1", "force_z_harmonic_2", "torque_harmonic_2",
+                         "bending_moment_max", "flute_1_load_share", "power_max"):
+                self.assertTrue(numpy.isfinite(file[name][()]).all(), name)
+            share = file["flute_3_load_share"][()]
+            self.assertEqual(numpy.isnan(share).tolist(), [True, False])
+            self.assertNotIn("force_x_harmonic_3", file)
+            self.assertNotIn("flute_4_load_share", file)
+        self.millstudy("export", "slot.h5", "-o", "slot.csv")
+
+    def test_coefficients_beyond_their_range_are_used_with_a_warning(self):
+        self.write(SLOT.replace("[numerics]", "valid_feed_per_tooth_mm = [0.01, 0.05]\n[numerics]"))
+        warning = ("warning: study.toml:17: feed per tooth of 0.06 mm leaves "
+                   "coefficients.valid_feed_per_tooth_mm = [0.01, 0.05]: the coefficients are "
+                   "extrapolated\n")
+        for verb in ("plan", "run", "run"):  # the second run finds the result of the first
+            self.assertEqual(self.millstudy(verb, "study.toml").stderr, warning)
+
+
 class StudyHash(ProgramTest):
     """The hash is of what is computed, not of how the study says it."""
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
-#include "force/chip_thickness.h"
 #include "unit/force/cases.h"
 
 namespace millstudy::force {
@@ -113,17 +112,6 @@ TEST(Statistics, OfNothingAreNaN) {
   const ForceStatistics none = StatisticsAccumulator().result();
   EXPECT_TRUE(std::isnan(none.x.mean) && std::isnan(none.resultant.max) &&
               std::isnan(none.torque_max));
-}
-
-TEST(ChipThickness, IsLargestInTheMiddleOfTheCutAndAtTheTopOfTheBall) {
-  const cutter::Cutter flat = haber_cutter(cutter::Shape::flat);
-  const cutter::Cutter ball = haber_cutter(cutter::Shape::ball);
-  EXPECT_DOUBLE_EQ(largest_chip_thickness(flat, slot(1.0), {0.1}), 0.1);
-  EXPECT_DOUBLE_EQ(largest_chip_thickness(flat, {0.0, 0.5, 1.0}, {0.1}), 0.1 * std::sin(0.5));
-  EXPECT_DOUBLE_EQ(largest_chip_thickness(flat, {2.0, 2.5, 1.0}, {0.1}), 0.1 * std::sin(2.0));
-  // 1 mm up a ball of 6 mm radius: r = sqrt(1 * 11).
-  EXPECT_DOUBLE_EQ(largest_chip_thickness(ball, slot(1.0), {0.1}), 0.1 * std::sqrt(11.0) / 6.0);
-  EXPECT_DOUBLE_EQ(largest_chip_thickness(ball, slot(7.0), {0.1}), 0.1);
 }
 
 }  // namespace

@@ -39,12 +39,12 @@ TEST(MachineAlong, OnAStraightPathIsThePlainForce) {
   revolution.add(samples, 360);
   const force::ForceStatistics plain = revolution.result();
   EXPECT_EQ(along.samples, 360 * 174);
-  EXPECT_NEAR(along.force.x.mean, plain.x.mean, 1e-11);
-  EXPECT_NEAR(along.force.resultant.mean, plain.resultant.mean, 1e-11);
-  EXPECT_NEAR(along.force.resultant.max, plain.resultant.max, 1e-11);
-  EXPECT_NEAR(along.force.z.rms, plain.z.rms, 1e-11);
-  EXPECT_NEAR(along.force.torque_mean, plain.torque_mean, 1e-10);
-  EXPECT_NEAR(along.chip_thickness_max, 0.06, 1e-14);
+  EXPECT_NEAR(along.figures.statistics.x.mean, plain.x.mean, 1e-11);
+  EXPECT_NEAR(along.figures.statistics.resultant.mean, plain.resultant.mean, 1e-11);
+  EXPECT_NEAR(along.figures.statistics.resultant.max, plain.resultant.max, 1e-11);
+  EXPECT_NEAR(along.figures.statistics.z.rms, plain.z.rms, 1e-11);
+  EXPECT_NEAR(along.figures.statistics.torque_mean, plain.torque_mean, 1e-10);
+  EXPECT_NEAR(along.figures.chip_thickness_max, 0.06, 1e-14);
 }
 
 TEST(MachineAlong, TurnsWithThePath) {
@@ -53,11 +53,11 @@ TEST(MachineAlong, TurnsWithThePath) {
   // A quarter turn is 90 of the 360 angular steps: the same samples in another order.
   const PathForces turned =
       machine_along(straight(360, 0.058, core::kPi / 2), bench.sampler, bench.machining);
-  EXPECT_NEAR(turned.force.y.mean, plain.force.x.mean, 1e-10);
-  EXPECT_NEAR(turned.force.x.mean, -plain.force.y.mean, 1e-10);
-  EXPECT_NEAR(turned.force.x.min, -plain.force.y.max, 1e-10);
-  EXPECT_NEAR(turned.force.resultant.rms, plain.force.resultant.rms, 1e-10);
-  EXPECT_NEAR(turned.force.torque_max, plain.force.torque_max, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.y.mean, plain.figures.statistics.x.mean, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.x.mean, -plain.figures.statistics.y.mean, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.x.min, -plain.figures.statistics.y.max, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.resultant.rms, plain.figures.statistics.resultant.rms, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.torque_max, plain.figures.statistics.torque_max, 1e-10);
 }
 
 TEST(MachineAlong, TakesEverySampleOnce) {
@@ -89,8 +89,8 @@ TEST(MachineAlong, ShowsTheFluctuationOfTheInterpolator) {
   for (std::size_t i = 1; i < uneven.points.size(); i += 2) uneven.points[i].x += 0.0058;
   const PathForces plain = machine_along(straight(360, 0.058, 0.0), bench.sampler, bench.machining);
   const PathForces shaken = machine_along(uneven, bench.sampler, bench.machining);
-  EXPECT_NEAR(shaken.chip_thickness_max, 1.1 * plain.chip_thickness_max, 1e-12);
-  EXPECT_GT(shaken.force.resultant.max, 1.05 * plain.force.resultant.max);
+  EXPECT_NEAR(shaken.figures.chip_thickness_max, 1.1 * plain.figures.chip_thickness_max, 1e-12);
+  EXPECT_GT(shaken.figures.statistics.resultant.max, 1.05 * plain.figures.statistics.resultant.max);
 }
 
 TEST(MachineAlong, RefusesAPathThatClimbs) {

@@ -12,13 +12,13 @@ namespace {
 using namespace testing;
 
 sweep::Block evaluated(const Study& study) {
-  sweep::Block block(0, study.space.points(), study.kind->columns.size(), study.traces);
+  sweep::Block block(0, study.space.points(), study.columns.size(), study.outputs.traces);
   block_evaluator(study)(block);
   return block;
 }
 
 std::size_t column(const Study& study, std::string_view name) {
-  const std::vector<sweep::Column>& columns = study.kind->columns;
+  const std::vector<sweep::Column>& columns = study.columns;
   const auto at = std::find_if(columns.begin(), columns.end(),
                                [&](const sweep::Column& c) { return c.name == name; });
   return static_cast<std::size_t>(at - columns.begin());
@@ -102,16 +102,41 @@ TEST(Evaluate, AnAbsurdFeedPerToothFails) {
   EXPECT_EQ(block.status[1], sweep::Status::ok);
 }
 
-TEST(ShareKey, DiffersForEveryKeyOfItsSections) {
-  for (const Key& key : cutter_keys()) {
-    if (!key.field) continue;
-    Case one, other;
-    apply(key, key.numeric() ? Setting(2.0) : Setting(std::string(key.choices[0])), one);
-    apply(key, key.numeric() ? Setting(3.0) : Setting(std::string(key.choices[1])), other);
-    EXPECT_NE(share_key({cutter_keys()}, one, {}), share_key({cutter_keys()}, other, {}))
-        << key.path;
-    EXPECT_EQ(share_key({cutter_keys()}, one, {}), share_key({cutter_keys()}, Case(one), {}));
+/// Two settings that a key can have.
+std::pair<Setting, Setting> two_settings(const Key& key) {
+  switch (key.type) {
+    case KeyType::choice:
+      return {std::string(key.choices[0]), std::string(key.choices[1])};
+    case KeyType::numbers:
+      return {std::vector<double>{1.0, 2.0}, std::vector<double>{1.0, 3.0}};
+    case KeyType::file:
+      return {std::make_shared<const cutter::Profile>(), std::make_shared<const cutter::Profile>()};
+    default:
+      return {2.0, 3.0};
   }
+}
+
+TEST(ShareKey, DiffersForEveryKeyOfItsSections) {
+  for (const std::span<const Key> section : {cutter_keys(), coefficient_keys()}) {
+    for (const Key& key : section) {
+      if (!key.field) continue;
+      Case one, other;
+      const auto [setting, changed] = two_settings(key);
+      apply(key, setting, one);
+      apply(key, changed, other);
+      EXPECT_NE(share_key({section}, one, {}), share_key({section}, other, {})) << key.path;
+      EXPECT_EQ(share_key({section}, one, {}), share_key({section}, Case(one), {}));
+    }
+  }
+}
+
+TEST(ShareKey, TellsOneHelixAngleForAllFromAListOfOne) {
+  const Key& helix = *std::find_if(cutter_keys().begin(), cutter_keys().end(),
+                                   [](const Key& key) { return key.path == "cutter.helix_deg"; });
+  Case number, list;
+  apply(helix, 30.0, number);
+  apply(helix, std::vector<double>{30.0}, list);
+  EXPECT_NE(share_key({cutter_keys()}, number, {}), share_key({cutter_keys()}, list, {}));
 }
 
 TEST(Evaluate, SharedGeometryGivesTheSameBitsAsItsOwn) {
@@ -122,10 +147,10 @@ TEST(Evaluate, SharedGeometryGivesTheSameBitsAsItsOwn) {
   const Study study = resolved(root);
   const sweep::Block together = evaluated(study);
   for (std::int64_t i = 0; i < together.count; ++i) {
-    sweep::Block alone(i, 1, study.kind->columns.size(), false);
+    sweep::Block alone(i, 1, study.columns.size(), false);
     block_evaluator(study)(alone);
-    for (std::size_t c = 0; c < study.kind->columns.size(); ++c) {
-      EXPECT_EQ(alone.value(c, 0), together.value(c, i)) << study.kind->columns[c].name;
+    for (std::size_t c = 0; c < study.columns.size(); ++c) {
+      EXPECT_EQ(alone.value(c, 0), together.value(c, i)) << study.columns[c].name;
     }
   }
 }

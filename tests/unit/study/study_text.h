@@ -2,8 +2,10 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "study/study.h"
@@ -26,6 +28,12 @@ inline Value of(int number) {
 }
 inline Value of(const char* text) {
   return {std::string(text), {"test.toml", 1}};
+}
+inline Value of(bool flag) {
+  return {flag, {"test.toml", 1}};
+}
+inline Value of(Value value) {
+  return value;
 }
 template <class... Items>
 Value list(Items... items) {
@@ -54,18 +62,20 @@ inline Value slot_study() {
   });
 }
 
-inline Value no_files(const std::string& path) {
-  throw core::InputError(path + ": no such file");
-}
+/// Files by name, for studies that name some.
+using Files = std::map<std::string, Value>;
 
-inline Study resolved(const Value& root) {
-  return resolve(root, no_files);
+inline Study resolved(const Value& root, const Files& files = {}) {
+  return resolve(root, [&](const std::string& path) {
+    if (!files.contains(path)) throw core::InputError(path + ": no such file");
+    return files.at(path);
+  });
 }
 
 /// The faults of a study, one line each; empty if it has none.
-inline std::string faults_of(const Value& root) {
+inline std::string faults_of(const Value& root, const Files& files = {}) {
   try {
-    resolved(root);
+    resolved(root, files);
     return "";
   } catch (const core::InputError& error) {
     return error.what();
@@ -84,6 +94,10 @@ inline void set(Value& root, const std::string& name, const std::string& key, Va
     }
   }
   members.push_back({key, std::move(value)});
+}
+inline void remove(Value& root, const std::string& name, const std::string& key) {
+  std::erase_if(section(root, name).table(),
+                [&](const core::Member& member) { return member.key == key; });
 }
 inline void sweep(Value& root, std::initializer_list<std::pair<std::string, Value>> axes,
                   const char* design = "grid") {
