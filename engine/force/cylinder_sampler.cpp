@@ -117,30 +117,34 @@ CylinderEdge::CylinderEdge(const CuttingEdges& edges, int flute, const EdgePiece
   per_lag_ = (piece.top - piece.bottom) / lag_;
 }
 
+CylinderEdge::AtArc CylinderEdge::at(const Arc& arc) const {
+  return {Angle(arc.entry_angle), Angle(arc.exit_angle),
+          std::min(lag_, arc.exit_angle - arc.entry_angle)};
+}
+
 /// (F13): the three stretches of a pass, by the immersion angles high and low of the edge's ends.
-void CylinderEdge::add_to(SamplingRun& run, const Combination& with, const Arc& arc) const {
-  const double width = arc.exit_angle - arc.entry_angle;
-  const Limits limits = {Angle(arc.entry_angle), Angle(arc.exit_angle), std::min(lag_, width)};
+void CylinderEdge::add_to(SamplingRun& run, const Combination& with, const AtArc& engaged) const {
+  const double width = engaged.exit.value - engaged.entry.value;
   const Harmonics density = density_.combine(with);
-  const Harmonics middle = lag_ <= width
-                               ? whole_.combine(with)
-                               : between_limits(density, arc.entry_angle, arc.exit_angle, per_lag_);
-  const double from = arc.entry_angle - high_shift_.value + limits.ramp;
-  const double to = arc.exit_angle - low_shift_.value - limits.ramp;
+  const Harmonics middle =
+      lag_ <= width ? whole_.combine(with)
+                    : between_limits(density, engaged.entry.value, engaged.exit.value, per_lag_);
+  const double from = engaged.entry.value - high_shift_.value + engaged.ramp;
+  const double to = engaged.exit.value - low_shift_.value - engaged.ramp;
   run.for_each_pass(from, to, [&](const Pass& pass) {
     run.add(pass, run.between(pass, from, to, closed_), middle);
   });
-  limits.ramp < kShortRamp ? add_short_ramps(run, density, limits)
-                           : add_long_ramps(run, density, limits);
+  engaged.ramp < kShortRamp ? add_short_ramps(run, density, engaged)
+                            : add_long_ramps(run, density, engaged);
 }
 
 void CylinderEdge::add_short_ramps(SamplingRun& run, const Harmonics& density,
-                                   const Limits& limits) const {
-  const double ramp = limits.ramp;
-  const double entering = limits.entry.value - high_shift_.value;  // tip angle of first contact
-  const double leaving = limits.exit.value - low_shift_.value;     // and of the last
-  const SamplingRun::Taylor up = taylor_of(density, limits.entry, per_lag_, 1.0);
-  const SamplingRun::Taylor down = taylor_of(density, limits.exit, per_lag_, -1.0);
+                                   const AtArc& engaged) const {
+  const double ramp = engaged.ramp;
+  const double entering = engaged.entry.value - high_shift_.value;  // tip angle of first contact
+  const double leaving = engaged.exit.value - low_shift_.value;     // and of the last
+  const SamplingRun::Taylor up = taylor_of(density, engaged.entry, per_lag_, 1.0);
+  const SamplingRun::Taylor down = taylor_of(density, engaged.exit, per_lag_, -1.0);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
     run.add_taylor(pass, run.between(pass, entering, entering + ramp, closed_), up, 1.0, entering);
     run.add_taylor(pass, run.between(pass, leaving - ramp, leaving, closed_), down, -1.0, leaving);
@@ -148,17 +152,17 @@ void CylinderEdge::add_short_ramps(SamplingRun& run, const Harmonics& density,
 }
 
 void CylinderEdge::add_long_ramps(SamplingRun& run, const Harmonics& density,
-                                  const Limits& limits) const {
-  const double ramp = limits.ramp;
-  const double entering = limits.entry.value - high_shift_.value;
-  const double leaving = limits.exit.value - low_shift_.value;
+                                  const AtArc& engaged) const {
+  const double ramp = engaged.ramp;
+  const double entering = engaged.entry.value - high_shift_.value;
+  const double leaving = engaged.exit.value - low_shift_.value;
   const Harmonics integral = integral_of(density, per_lag_);
   const Row slope = scaled(density.constant, per_lag_);
   const Row opposite = scaled(slope, -1.0);
   Harmonics up = shifted(integral, high_shift_);
-  up.constant = scaled(value_at(integral, limits.entry), -1.0);
+  up.constant = scaled(value_at(integral, engaged.entry), -1.0);
   Harmonics down = negative(shifted(integral, low_shift_));
-  down.constant = value_at(integral, limits.exit);
+  down.constant = value_at(integral, engaged.exit);
   run.for_each_pass(entering, leaving, [&](const Pass& pass) {
     run.add(pass, run.between(pass, entering, entering + ramp, closed_), up, slope, entering);
     run.add(pass, run.between(pass, leaving - ramp, leaving, closed_), down, opposite, leaving);

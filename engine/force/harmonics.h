@@ -45,11 +45,11 @@ inline Harmonics shifted(const Harmonics& p, double cos_shift, double sin_shift)
 /// What a call multiplies the prepared geometry with: feed and coefficients (see loads()), and the
 /// direction of the feed frame into whose machine axes x and y are turned back.
 struct Combination {
-  Combination(const Loads& loads, double direction, bool plunging)
+  Combination(const Loads& loads, double cosine, double sine, bool plunging)
       : load(loads),
         columns(plunging ? kLoads : kLoads - kColumns),
-        cos_direction(std::cos(direction)),
-        sin_direction(std::sin(direction)) {}
+        cos_direction(cosine),
+        sin_direction(sine) {}
 
   Loads load;
   int columns;  ///< the plunge columns count only where the feed leaves the plane

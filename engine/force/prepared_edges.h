@@ -25,17 +25,19 @@ inline Harmonics shifted(const Harmonics& p, const Angle& shift) {
 class CylinderEdge {
  public:
   CylinderEdge(const CuttingEdges& edges, int flute, const EdgePiece& piece);
-  void add_to(SamplingRun& run, const Combination& with, const Arc& arc) const;
 
- private:
   /// One engagement with what the closed forms need of it.
-  struct Limits {
+  struct AtArc {
     Angle entry;
     Angle exit;
     double ramp;  ///< tip angle from the first contact to the fullest [rad]
   };
-  void add_short_ramps(SamplingRun& run, const Harmonics& density, const Limits& limits) const;
-  void add_long_ramps(SamplingRun& run, const Harmonics& density, const Limits& limits) const;
+  AtArc at(const Arc& arc) const;
+  void add_to(SamplingRun& run, const Combination& with, const AtArc& engaged) const;
+
+ private:
+  void add_short_ramps(SamplingRun& run, const Harmonics& density, const AtArc& engaged) const;
+  void add_long_ramps(SamplingRun& run, const Harmonics& density, const AtArc& engaged) const;
 
   Angle high_shift_;  ///< largest immersion angle on the edge, less that of the tip
   Angle low_shift_;   ///< smallest, likewise

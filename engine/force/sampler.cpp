@@ -149,7 +149,11 @@ struct ForceSampler::Engaged {
       for (std::size_t i = 0; i < g.geometries.size(); ++i) {
         series.emplace_back();
         power_edges.emplace_back();
+        cylinders.emplace_back();
         for (const SeriesEdge& edge : g.geometries[i].series) series.back().push_back(edge.at(arc));
+        for (const CylinderEdge& edge : g.geometries[i].cylinders) {
+          cylinders.back().push_back(edge.at(arc));
+        }
         if (!power || !first) continue;
         for (const EdgePiece& piece : g.plain_edges->pieces()) {
           power_edges.back().emplace_back(*g.plain_edges, g.rows, static_cast<int>(i), piece, arc);
@@ -169,15 +173,18 @@ struct ForceSampler::Engaged {
         edge.series[i].add_to(run, with, series[at][i]);
       }
       for (const SizeEffectEdge& power : power_edges[at]) power.add_to(run, with);
-      for (const CylinderEdge& cylinder : edge.cylinders) cylinder.add_to(run, with, arcs[a]);
+      for (std::size_t i = 0; i < cylinders[at].size(); ++i) {
+        edge.cylinders[i].add_to(run, with, cylinders[at][i]);
+      }
       if (edge.discs) edge.discs->add_to(run, with, arcs[a]);
     }
   }
 
   std::vector<Arc> arcs;
   bool size_effect_is_prepared;
-  std::vector<std::vector<SeriesEdge::AtArc>> series;    ///< shape (arcs, geometries)
-  std::vector<std::vector<SizeEffectEdge>> power_edges;  ///< likewise
+  std::vector<std::vector<SeriesEdge::AtArc>> series;       ///< shape (arcs, geometries)
+  std::vector<std::vector<CylinderEdge::AtArc>> cylinders;  ///< likewise
+  std::vector<std::vector<SizeEffectEdge>> power_edges;     ///< likewise
 };
 
 ForceSampler::ForceSampler(const cutter::Cutter& cutter, const Engagement& engagement,
@@ -272,7 +279,7 @@ void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coeff
     const double m = variation.size_exponent[q];
     if (m != 0.0) load[q] *= std::pow(feed.per_tooth / variation.reference_chip_thickness, -m);
   }
-  const Combination with(load, std::remainder(feed.direction, 2.0 * core::kPi), feed.slope != 0.0);
+  const Combination with(load, run.direction().cosine, run.direction().sine, feed.slope != 0.0);
   if (flute != kAllFlutes) {
     engaged_->add_to(run, g, g.teeth[flute], with);
   } else if (run.tables().teeth > 1) {
@@ -296,7 +303,7 @@ void ForceSampler::sample_prepared(int flute, const Coefficients& coefficients, 
   if (out.x.size() < room) out.resize(room);
   const std::array<double*, kRows> rows = {out.x.data(), out.y.data(), out.z.data(),
                                            out.torque.data()};
-  const double direction = std::remainder(feed.direction, 2.0 * core::kPi);
+  const Angle direction(std::remainder(feed.direction, 2.0 * core::kPi));
   const std::int64_t begin = ((first % period) + period) % period;
   const std::int64_t fresh = std::min(count, period);
   // The samples of one period are begin .. period - 1 and then 0 .. begin - 1.

@@ -33,7 +33,7 @@ AngleTables::AngleTables(int angular_steps, int tooth_count)
   }
 }
 
-SamplingRun::SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+SamplingRun::SamplingRun(const AngleTables& tables, const Angle& direction, IndexRange indices,
                          std::array<double*, kRows> rows)
     : tables_(tables),
       direction_(direction),
@@ -44,13 +44,10 @@ SamplingRun::SamplingRun(const AngleTables& tables, double direction, IndexRange
 Pass SamplingRun::pass(std::int64_t q) const {
   const std::int64_t left = q % tables_.teeth;
   const std::size_t at = left < 0 ? left + tables_.teeth : left;
-  const double c0 = direction_.cosine * position_.cosine - direction_.sine * position_.sine;
-  const double s0 = direction_.sine * position_.cosine + direction_.cosine * position_.sine;
   const double c = tables_.cos_pitch[at];
   const double s = tables_.sin_pitch[at];
-  return {
-      direction_.value + position_.value + 2.0 * core::kPi * static_cast<double>(q) / tables_.teeth,
-      c0 * c - s0 * s, s0 * c + c0 * s};
+  return {zero_ + 2.0 * core::kPi * static_cast<double>(q) / tables_.teeth,
+          zero_cosine_ * c - zero_sine_ * s, zero_sine_ * c + zero_cosine_ * s};
 }
 
 IndexRange SamplingRun::between(const Pass& pass, double from, double to, Closed closed) const {

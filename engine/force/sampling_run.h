@@ -61,15 +61,21 @@ class SamplingRun {
  public:
   using Row = Harmonics::Row;
 
-  /// @param direction  feed direction theta [rad], reduced to +-pi
+  /// @param direction  feed direction theta, reduced to +-pi
   /// @param rows       x, y, z, torque of index `first`: last - first values, to be overwritten,
   ///                   and then room for one vector
-  SamplingRun(const AngleTables& tables, double direction, IndexRange indices,
+  SamplingRun(const AngleTables& tables, const Angle& direction, IndexRange indices,
               std::array<double*, kRows> rows);
 
   /// The teeth that follow stand at this angle ahead of the tip of flute 0, and at all angles that
   /// differ from it by the pitch of equal teeth.
-  void begin_tooth(const Angle& position) { position_ = position; }
+  void begin_tooth(const Angle& position) {
+    zero_ = direction_.value + position.value;
+    zero_cosine_ = direction_.cosine * position.cosine - direction_.sine * position.sine;
+    zero_sine_ = direction_.sine * position.cosine + direction_.cosine * position.sine;
+  }
+
+  const Angle& direction() const { return direction_; }
 
   /// To be called when all is added: makes samples zero that nothing was added to.
   void finish();
@@ -80,10 +86,9 @@ class SamplingRun {
   void for_each_pass(double from, double to, const Visit& visit) const {
     constexpr double kMargin = 1e-9;  // an empty pass too many does no harm
     const double whole = tables_.step * tables_.period;
-    const double zero = direction_.value + position_.value;
     const auto first =
-        static_cast<std::int64_t>(std::ceil((from - zero - whole) * per_pitch_ - kMargin));
-    const auto last = static_cast<std::int64_t>(std::floor((to - zero) * per_pitch_ + kMargin));
+        static_cast<std::int64_t>(std::ceil((from - zero_ - whole) * per_pitch_ - kMargin));
+    const auto last = static_cast<std::int64_t>(std::floor((to - zero_) * per_pitch_ + kMargin));
     for (std::int64_t q = first; q <= last; ++q) visit(pass(q));
   }
 
@@ -128,7 +133,9 @@ class SamplingRun {
 
   const AngleTables& tables_;
   Angle direction_;
-  Angle position_{0.0};
+  double zero_ = 0.0;  // of the tip at index 0
+  double zero_cosine_ = 1.0;
+  double zero_sine_ = 0.0;
   double per_pitch_;
   IndexRange indices_;
   std::array<double*, kRows> rows_;

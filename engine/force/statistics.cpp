@@ -75,6 +75,7 @@ StatisticsAccumulator::StatisticsAccumulator() {
 void StatisticsAccumulator::add(const ForceSamples& samples, std::int64_t count) {
   Taker x_taker(sums_[0]), y_taker(sums_[1]), z_taker(sums_[2]);
   Taker resultant_taker(sums_[3]), torque_taker(sums_[4]);
+  Lanes cutting{};  // how many samples have a force
   std::int64_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     const Lanes x = load(&samples.x[i]);
@@ -83,7 +84,9 @@ void StatisticsAccumulator::add(const ForceSamples& samples, std::int64_t count)
     x_taker.take(x);
     y_taker.take(y);
     z_taker.take(z);
-    resultant_taker.take(square_root(x * x + y * y + z * z));
+    const Lanes resultant = square_root(x * x + y * y + z * z);
+    resultant_taker.take(resultant);
+    cutting += resultant != 0.0 ? Lanes{} + 1.0 : Lanes{};
     torque_taker.take(load(&samples.torque[i]));
   }
   if (const int rest = static_cast<int>(count - i); rest > 0) {
@@ -93,12 +96,12 @@ void StatisticsAccumulator::add(const ForceSamples& samples, std::int64_t count)
     x_taker.take(x, rest);
     y_taker.take(y, rest);
     z_taker.take(z, rest);
-    resultant_taker.take(square_root(x * x + y * y + z * z), rest);
+    const Lanes resultant = square_root(x * x + y * y + z * z);
+    resultant_taker.take(resultant, rest);
+    cutting += resultant != 0.0 ? Lanes{} + 1.0 : Lanes{};
     torque_taker.take(load_part(&samples.torque[i], rest), rest);
   }
-  for (i = 0; i < count; ++i) {
-    cutting_ += samples.x[i] != 0.0 || samples.y[i] != 0.0 || samples.z[i] != 0.0;
-  }
+  for (int lane = 0; lane < kLanes; ++lane) cutting_ += static_cast<std::int64_t>(cutting[lane]);
   count_ += count;
 }
 
