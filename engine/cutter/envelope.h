@@ -36,7 +36,7 @@ struct Segment {
   double kappa_at(double z) const;
 };
 
-/// Meridian and lag of an end mill, from its tip up: lines and arcs (C3), (C7)-(C9).
+/// Meridian and lag of an end mill, from its tip up: lines and arcs (C3), (C7), (C8).
 class Envelope {
  public:
   /// Of a cutter whose numbers check() lets pass; throws core::InputError where tip, corner and
@@ -48,7 +48,7 @@ class Envelope {
   /// The segment at a height; at a boundary the upper one.
   const Segment& segment_at(double z) const;
 
-  /// (C5), (C9), (C13): lag angle at a height over the tangent of the helix angle. Zero at the tip,
+  /// (C5), (C13): lag angle at a height over the tangent of the helix angle. Zero at the tip,
   /// ascending, exact to rounding.
   double lag(double z) const;
   /// Its slope over height [1/mm].
@@ -71,7 +71,7 @@ class Envelope {
  private:
   std::vector<Segment> segments_;
   double diameter_;
-  // Constant helix along a taper: from here on (C13) instead of (C9).
+  // Constant helix along a taper: from here on (C13) instead of (C5).
   double helix_from_;        // height [mm], infinite with constant lead
   double helix_radius_ = 1;  // radius there [mm]
   double helix_slope_ = 0;   // tan(beta)
