@@ -172,6 +172,96 @@ def ggg70_slot(program, folder, check):
                 f"{mean[index]:.4f} N against {straight['force_resultant_mean'][0]:.4f} N")
 
 
+def haber2004_worn_tool(program, folder, check):
+    result = run(program, "haber2004_worn_tool", folder)
+    mean, scale = result["force_resultant_mean"], result["edge_scale"]
+    slow, fast = mean[0, 0], mean[1, 1]
+    check.number("new tool, 14 500 rpm [N]", "REFERENCE, own run", "56.632", slow[0])
+    check.number("new tool, 17 500 rpm [N]", "REFERENCE, own run", "69.9585", fast[0])
+    of_slow, of_fast = np.interp(82.5, slow, scale), np.interp(90.9, fast, scale)
+    check.number("edge_scale of 82.5 N at 14 500 rpm", "haber2004 Table II, ours", "3.59", of_slow)
+    check.number("edge_scale of 90.9 N at 17 500 rpm", "haber2004 Table II, ours", "3.10", of_fast)
+    check.number("the first scale at the second speed [N]", "own run", "95.8", np.interp(of_slow, scale, fast))
+    check.number("the second scale at the first speed [N]", "own run", "77.6", np.interp(of_fast, scale, slow))
+    off = [np.interp(3.35, scale, slow) / 82.5 - 1, np.interp(3.35, scale, fast) / 90.9 - 1]
+    check.holds("edge_scale 3.35 is within 3 % of both", max(map(abs, off)) < 0.03,
+                f"{100 * off[0]:+.1f} % and {100 * off[1]:+.1f} %")
+
+
+def helix_and_depth(program, folder, check):
+    result = run(program, "helix_and_depth", folder)
+    ripple = (result["force_x_max"] - result["force_x_min"]) / np.abs(result["force_x_mean"])
+    depth = result["axial_depth_mm"]
+    for row, helix in zip(ripple, result["helix_deg"]):
+        pitch = np.pi * 12.0 / (4 * np.tan(np.radians(helix)))
+        near = [int(np.argmin(np.abs(depth - k * pitch))) for k in range(1, int(40.0 / pitch) + 1)]
+        check.holds(f"helix {helix:.0f} deg: hardly any ripple next to every {pitch:.3f} mm",
+                    max(row[i] for i in near) < 0.02, f"{max(row[i] for i in near):.1e} of the mean")
+        for k in (1, 2):
+            exact = run(program, "helix_and_depth", folder, f'sweep.axes."cutter.helix_deg"=[{helix}]',
+                        f'sweep.axes."cut.axial_depth_mm"=[{k * pitch!r}]')
+            for force in ("x", "y", "z"):
+                low, high, mean = (exact[f"force_{force}_{name}"].item() for name in ("min", "max", "mean"))
+                check.holds(f"helix {helix:.0f} deg, {k} axial pitches: ripple of {force} below 1e-12 of the mean",
+                            high - low < 1e-12 * abs(mean), f"{(high - low) / abs(mean):.1e}")
+            harmonics = [exact[f"force_x_harmonic_{n}"].item() for n in (1, 2, 3)]
+            check.holds("and no harmonic", max(harmonics) < 1e-12 * abs(exact["force_x_mean"].item()),
+                        f"{max(harmonics):.1e} N")
+
+
+def runout_and_pitch(program, folder, check):
+    result = run(program, "runout_and_pitch", folder)
+    offset = result["runout_offset_mm"]
+    share = np.array([result[f"flute_{j}_load_share"] for j in range(1, 5)])
+    chip = np.array([result[f"flute_{j}_chip_thickness_max"] for j in range(1, 5)])
+    check.holds("the shares sum to one", np.abs(share.sum(axis=0) - 1).max() < 1e-12,
+                f"{np.abs(share.sum(axis=0) - 1).max():.1e}")
+    check.holds("without runout equal flutes share alike", np.ptp(share[:, 0, 0, 0]) < 1e-12,
+                f"{np.ptp(share[:, 0, 0, 0]):.1e}")
+    energy = result["power_mean"]
+    for j, pitch in enumerate(result["pitch_deg"]):
+        first = offset[np.argmax((chip[:, :, j, 0] == 0).any(axis=0))]
+        check.number(f"pitch {pitch}: a flute cuts nothing from runout [mm]", "own run", "0.037", first, 1e-9)
+        check.holds("at 0.02 mm one flute does more than 0.4 of the work",
+                    0.40 < share[:, 20, j, 0].max() < 0.46, f"{share[:, 20, j, 0].max():.3f}")
+    removal = result["material_removal_rate"]
+    check.holds("material is removed at the same rate whatever the runout", np.ptp(removal) == 0.0, f"{removal.flat[0]:.3f} cm3/min")
+    # Chip forces depend on the material alone, edge forces on who is in cut: less power as flutes miss.
+    check.holds("flutes that miss their cut save edge forces", (energy[-1] < energy[0]).all(),
+                f"{energy[-1, 0, 0] / energy[0, 0, 0]:.3f} of the power")
+
+
+def cutter_shapes(program, folder, check):
+    result = run(program, "cutter_shapes", folder)
+    check.holds("every shape is computed", not result["status"].any(), f"{result['status'].size} points")
+    discs = run(program, "cutter_shapes", folder, "numerics.rule=discs", "numerics.discs=20000")
+    off = np.abs(discs["force_resultant_mean"] / result["force_resultant_mean"] - 1).max(axis=1)
+    for shape, distance in zip(result["cutter_file"], off):
+        check.holds(f"{pathlib.Path(shape).stem}: 20 000 discs are within 0.2 %", distance < 2e-3, f"{100 * distance:.4f} %")
+    energy = result["specific_energy"]
+    check.holds("corners and balls cost most where the cut is shallow", (energy[:2, 0] > energy[:2, -1] * 1.2).all(),
+                f"{energy[0, 0]:.2f} and {energy[0, -1]:.2f} J/mm3 of the bull-nose")
+
+
+def coefficient_laws(program, folder, check):
+    result = run(program, "coefficient_laws", folder)
+    mean = result["force_resultant_mean"][:, :, 0]
+    laws = [pathlib.Path(name).stem for name in result["coefficients_file"]]
+    against = dict(zip(laws, 100 * (mean / mean[0] - 1)))
+    feeds = list(result["feed_per_tooth_mm"])
+    for law, feed, printed in (("size_effect", 0.0125, "7.7"), ("size_effect", 0.2, "-12.0"),
+                               ("height_table", 0.05, "6.1"), ("height_polynomial", 0.05, "0.8"),
+                               ("orthogonal", 0.2, "-1.0")):
+        check.number(f"{law} against constant at {feed} mm [%]", "own run", printed,
+                     against[law][feeds.index(feed)], 0.06)
+    worn = run(program, "coefficient_laws", folder, 'sweep.axes."cut.feed_per_tooth_mm"=[0.05]',
+               "coefficients.edge_scale=2.0")["force_resultant_mean"][:, 0, 0]
+    check.holds("a worn edge adds force with any law", (worn > mean[:, feeds.index(0.05)] * 1.5).all(), worn)
+    scaled = result["torque_mean"][..., 1] - result["torque_mean"][..., 0]
+    check.holds("cutting_scale 1.2 adds a fifth of the chip's torque", (scaled > 0).all(),
+                f"{scaled[0, 2]:.3f} N m at 0.05 mm")
+
+
 def main():
     program, study = sys.argv[1:]
     check = Checker()
