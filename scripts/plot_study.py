@@ -10,6 +10,7 @@ import argparse
 import pathlib
 import re
 import sys
+import textwrap
 
 try:
     import h5py
@@ -74,7 +75,10 @@ class Axis:
         self.units = shown_units(text(dataset.attrs.get("units", "1")))
         self.words = None
         if dataset.dtype.kind in "OS":
-            self.words = [text(word) for word in dataset[()]]
+            words = [text(word) for word in dataset[()]]
+            # Files are told apart by their names alone.
+            stems = [pathlib.PurePath(word).stem if word.endswith(".toml") else word for word in words]
+            self.words = stems if len(set(stems)) == len(words) else words
             self.values = np.arange(len(self.words), dtype=float)
         else:
             self.values = np.asarray(dataset[()], dtype=float)
@@ -340,7 +344,7 @@ def draw_grid(figure, study):
             axes.set_title(name + panels.value_text(index))
             axes.set(xlabel="", ylabel="")
             axes.xaxis.set_tick_params(labelbottom=index + columns >= len(data))
-    down_label = study.label if as_curves else second.label
+    down_label = fitting(study.label if as_curves else second.label, 0.9 * figure.get_figheight())
     if panels:
         figure.supxlabel(across.label, fontsize=9.5, color="#222222")
         figure.supylabel(down_label, fontsize=9.5, color="#222222")
@@ -352,6 +356,11 @@ def draw_grid(figure, study):
     elif second:
         grid[0, -1].legend(title=second.short, loc="upper left", bbox_to_anchor=(1.01, 1.0),
                            alignment="left", borderaxespad=0.0)
+
+
+def fitting(text, inches):
+    """Lines of text that are no longer than a figure's side, of characters of 10 points."""
+    return "\n".join(textwrap.fill(line, int(13.5 * inches)) for line in text.split("\n"))
 
 
 def draw_points(figure, study):
@@ -463,7 +472,7 @@ def draw(study):
         if count:
             notes.append(f"{count:,} of {study.status.size:,} points {name}")
     lines = [study.title] * bool(study.title) + ["; ".join(notes)] * bool(notes)
-    figure.suptitle("\n".join(lines), fontsize=10)
+    figure.suptitle(fitting("\n".join(lines), size[0]), fontsize=10)
     return figure
 
 
@@ -498,7 +507,7 @@ def draw_histories(histories):
     if not one:
         grid[0, columns - 1].legend(loc="upper left", bbox_to_anchor=(1.01, 1.0),
                                     borderaxespad=0.0)
-    figure.suptitle(histories.title, fontsize=10)
+    figure.suptitle(fitting(histories.title, figure.get_figwidth()), fontsize=10)
     return figure
 
 

@@ -37,7 +37,7 @@ void add_harmonics(Columns& columns, int harmonics) {
     for (int n = 1; n <= harmonics; ++n) {
       columns.push_back(
           {fmt::format("{}_harmonic_{}", name, n), unit,
-           fmt::format("amplitude of {} at {} times the tooth passing frequency", words, n)});
+           fmt::format("amplitude of {}, tooth-passing harmonic {}", words, n)});
     }
   }
 }

@@ -34,7 +34,7 @@ TEST(Outputs, HaveTheHarmonicsOfForcesAndTorque) {
   ASSERT_EQ(study.columns.size(), 25u + 12u);
   EXPECT_EQ(study.columns[25].name, "force_x_harmonic_1");
   EXPECT_EQ(study.columns[25].long_name,
-            "amplitude of force x at 1 times the tooth passing frequency");
+            "amplitude of force x, tooth-passing harmonic 1");
   EXPECT_EQ(study.columns[36].name, "torque_harmonic_3");
   EXPECT_EQ(study.columns[36].units, "N m");
 }
