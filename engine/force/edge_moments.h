@@ -56,7 +56,7 @@ struct MomentSeries {
   EdgeMoments whole;  ///< at part = 1
 };
 
-/// (F14): terms below 1e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
+/// (F14): terms below 1e-15 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
 /// deg takes 96.
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
 

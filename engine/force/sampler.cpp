@@ -87,17 +87,21 @@ struct ForceSampler::Geometry {
            const Variation& variation, Rows row_kind)
       : angular_steps(steps),
         rows(row_kind),
-        exact(edge_rule.rule == Rule::exact),
         edges(std::make_shared<const CuttingEdges>(cutter, axial_depth, variation)),
         plain_edges(std::make_shared<const CuttingEdges>(plain(cutter), axial_depth, variation)),
         nonlinear(edges, edge_rule),
-        tables(steps, edges->equal_flutes() ? cutter.flutes : 1) {
+        tables(steps, edges->equal_flutes() ? cutter.flutes : 1),
+        linear(can_be_linear(edge_rule)),
+        size_effect(variation.with_exponent()),
+        all_cylinder(
+            std::all_of(edges->pieces().begin(), edges->pieces().end(),
+                        [](const EdgePiece& piece) { return piece.segment.is_cylinder(); })) {
     if (takes_runout_edges(edge_rule)) {
       for (const EdgePiece& piece : plain_edges->pieces()) {
         runout.emplace_back(*plain_edges, rows, piece);
       }
     }
-    if (!can_be_linear()) return;
+    if (!linear) return;
     const int kinds = edges->variable_helix() ? cutter.flutes : 1;
     for (int flute = 0; flute < kinds; ++flute) {
       geometries.emplace_back(plain_edges, rows, flute, edge_rule);
@@ -110,11 +114,10 @@ struct ForceSampler::Geometry {
     }
   }
 
-  /// Every flute sees a chip in proportion to the feed, or to a power of it.
-  bool can_be_linear() const {
-    const Variation& variation = edges->variation();
-    const bool power = variation.with_exponent() && !variation.orthogonal && exact;
-    return !cutter::has_runout(edges->cutter()) && (power || !variation.with_chip());
+  bool can_be_linear(const EdgeRule& edge_rule) const {
+    const Variation& law = edges->variation();
+    const bool power = law.with_exponent() && !law.orthogonal && edge_rule.rule == Rule::exact;
+    return !cutter::has_runout(edges->cutter()) && (power || !law.with_chip());
   }
 
   /// Runout with all that makes its chips linear in cot(phi), (F23); beyond so many flutes their
@@ -128,12 +131,14 @@ struct ForceSampler::Geometry {
 
   int angular_steps;
   Rows rows;
-  bool exact;
   std::shared_ptr<const CuttingEdges> edges;
   std::shared_ptr<const CuttingEdges> plain_edges;
   NonlinearForce nonlinear;
   AngleTables tables;  ///< of all teeth
 
+  bool linear;        ///< each flute sees a chip in proportion to the feed, or to a power of it
+  bool size_effect;   ///< it is a power
+  bool all_cylinder;  ///< no edge sees a feed upward
   std::vector<ToothGeometry> geometries;
   std::vector<Tooth> teeth;
   std::vector<RunoutEdge> runout;
@@ -144,7 +149,6 @@ struct ForceSampler::Engaged {
   /// @param first  of a sampler that is made anew: worth the milliseconds of a size effect's series
   Engaged(const Geometry& g, std::span<const Arc> all, bool first)
       : arcs(all.begin(), all.end()), size_effect_is_prepared(first) {
-    const bool power = g.edges->variation().with_exponent();
     for (const Arc& arc : arcs) {
       for (std::size_t i = 0; i < g.geometries.size(); ++i) {
         series.emplace_back();
@@ -154,7 +158,7 @@ struct ForceSampler::Engaged {
         for (const CylinderEdge& edge : g.geometries[i].cylinders) {
           cylinders.back().push_back(edge.at(arc));
         }
-        if (!power || !first) continue;
+        if (!g.size_effect || !first) continue;
         for (const EdgePiece& piece : g.plain_edges->pieces()) {
           power_edges.back().emplace_back(*g.plain_edges, g.rows, static_cast<int>(i), piece, arc);
         }
@@ -236,15 +240,10 @@ void ForceSampler::sample_moments(const Coefficients& coefficients, const Feed& 
 }
 
 bool ForceSampler::is_linear(const Feed& feed) const {
-  if (!geometry_->can_be_linear()) return false;
-  if (geometry_->edges->variation().with_exponent()) {
-    return engaged_->size_effect_is_prepared && feed.slope == 0.0;
-  }
-  if (feed.upward() <= 0.0) return true;
-  // Upward the lower side of a curved edge has no chip; a cylinder does not see it.
-  const auto pieces = geometry_->edges->pieces();
-  return std::all_of(pieces.begin(), pieces.end(),
-                     [](const EdgePiece& piece) { return piece.segment.is_cylinder(); });
+  const Geometry& g = *geometry_;
+  if (!g.linear) return false;
+  if (g.size_effect) return engaged_->size_effect_is_prepared && feed.slope == 0.0;
+  return feed.upward() <= 0.0 || g.all_cylinder;  // climbing, the lower side has no chip
 }
 
 void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
@@ -275,11 +274,12 @@ void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coeff
   }
   Loads load = loads(coefficients, feed);
   const Variation& variation = g.edges->variation();
-  for (int q = 0; q < kColumns; ++q) {  // (F18): K h (h/h0)^-m = K f (f/h0)^-m (h/f)^(1-m)
+  for (int q = 0; g.size_effect && q < kColumns;
+       ++q) {  // (F18): K h (h/h0)^-m = K f (f/h0)^-m (h/f)^(1-m)
     const double m = variation.size_exponent[q];
     if (m != 0.0) load[q] *= std::pow(feed.per_tooth / variation.reference_chip_thickness, -m);
   }
-  const Combination with(load, run.direction().cosine, run.direction().sine, feed.slope != 0.0);
+  const Combination with = {load, run.direction().cosine, run.direction().sine, feed.slope != 0.0};
   if (flute != kAllFlutes) {
     engaged_->add_to(run, g, g.teeth[flute], with);
   } else if (run.tables().teeth > 1) {
