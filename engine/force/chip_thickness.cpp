@@ -47,10 +47,9 @@ double largest_sine(std::span<const Arc> arcs) {
   return largest;
 }
 
-std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<const Arc> arcs,
+std::vector<double> largest_chip_thickness(const CuttingEdges& edges, double sin_phi,
                                            const Feed& feed) {
   const ChipLaw law(edges);
-  const double sin_phi = largest_sine(arcs);
   const bool closed = law.reaches() == 1 && !edges.variable_helix() && feed.slope == 0.0;
   std::vector<double> thickest;
   std::vector<Reach> reaches(law.reaches());

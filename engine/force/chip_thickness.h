@@ -18,7 +18,9 @@ double largest_sine(std::span<const Arc> arcs);
 /// The chip grows with sin(phi) whatever the law, so only heights have to be searched: in closed
 /// form where flutes have one helix angle, no runout and a feed in the plane; else by a scan and
 /// golden sections, to 1e-7 of itself (measured).
-std::vector<double> largest_chip_thickness(const CuttingEdges& edges, std::span<const Arc> arcs,
+///
+/// @param sin_phi  the largest, see largest_sine()
+std::vector<double> largest_chip_thickness(const CuttingEdges& edges, double sin_phi,
                                            const Feed& feed);
 
 }  // namespace millstudy::force

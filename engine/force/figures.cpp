@@ -22,14 +22,23 @@ void FigureAccumulator::add(const ForceSampler& sampler, const Coefficients& coe
   if (spectrum_) spectrum_->add(samples, first, count);
   if (request_.stick_out) add_bending(sampler, coefficients, feed, first, count, samples);
   if (request_.flutes) add_flutes(sampler, coefficients, feed, first, count);
-  longest_feed_ = std::max(longest_feed_, feed.per_tooth);
-  lowest_slope_ = empty_ ? feed.slope : std::min(lowest_slope_, feed.slope);
-  highest_slope_ = empty_ ? feed.slope : std::max(highest_slope_, feed.slope);
-  empty_ = false;
-  const double sine = largest_sine(sampler.arcs());
-  if (sine > widest_sine_) {
-    widest_sine_ = sine;
-    widest_.assign(sampler.arcs().begin(), sampler.arcs().end());
+  note_advance({feed.in_plane() * largest_sine(sampler.arcs()), feed.upward()});
+}
+
+void FigureAccumulator::note_advance(const Advance& advance) {
+  const auto covers = [](const Advance& a, const Advance& b) {
+    return a.radial >= b.radial && a.upward <= b.upward;
+  };
+  for (const Advance& other : advances_) {
+    if (covers(other, advance)) return;
+  }
+  std::erase_if(advances_, [&](const Advance& other) { return covers(advance, other); });
+  constexpr std::size_t kMost = 64;  // of a path whose slope changes all along
+  if (advances_.size() < kMost) {
+    advances_.push_back(advance);
+  } else {  // the next best bound: one that covers both
+    advances_.back() = {std::max(advances_.back().radial, advance.radial),
+                        std::min(advances_.back().upward, advance.upward)};
   }
 }
 
@@ -61,12 +70,10 @@ ForceFigures FigureAccumulator::result() const {
   figures.bending_moment_max = std::sqrt(bending_square_);
   if (spectrum_) figures.harmonics = spectrum_->amplitudes();
   std::vector<double> thickest(sampler_.edges().flutes().size(), 0.0);
-  constexpr int kSlopes = 8;
-  for (int i = 0; i <= kSlopes; ++i) {
-    if (i > 0 && lowest_slope_ == highest_slope_) break;
-    const Feed feed = {longest_feed_, 0.0,
-                       lowest_slope_ + (highest_slope_ - lowest_slope_) * i / kSlopes};
-    const std::vector<double> found = largest_chip_thickness(sampler_.edges(), widest_, feed);
+  for (const Advance& advance : advances_) {
+    const Feed feed = {std::hypot(advance.radial, advance.upward), 0.0,
+                       std::atan2(advance.upward, advance.radial)};
+    const std::vector<double> found = largest_chip_thickness(sampler_.edges(), 1.0, feed);
     for (std::size_t j = 0; j < found.size(); ++j) thickest[j] = std::max(thickest[j], found[j]);
   }
   figures.chip_thickness_max = *std::max_element(thickest.begin(), thickest.end());

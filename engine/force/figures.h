@@ -49,13 +49,17 @@ class FigureAccumulator {
   void add(const ForceSampler& sampler, const Coefficients& coefficients, const Feed& feed,
            std::int64_t first, std::int64_t count, const ForceSamples& samples);
 
-  /// The thickest chip is that of the longest feed in the widest arc, over all slopes between the
-  /// extremes: exact for one feed, an upper bound where these do not come together.
   ForceFigures result() const;
 
  private:
+  /// What a chip is thickest with: the advance along the thickest radius, f sin(phi), and upward.
+  struct Advance {
+    double radial;  ///< [mm]
+    double upward;  ///< [mm]
+  };
   void add_bending(const ForceSampler& sampler, const Coefficients& coefficients, const Feed& feed,
                    std::int64_t first, std::int64_t count, const ForceSamples& samples);
+  void note_advance(const Advance& advance);
   void add_flutes(const ForceSampler& sampler, const Coefficients& coefficients, const Feed& feed,
                   std::int64_t first, std::int64_t count);
 
@@ -66,12 +70,7 @@ class FigureAccumulator {
   double bending_square_ = 0.0;
   std::vector<double> flute_torque_;  ///< sums [N mm]
   ForceSamples buffer_;
-  double longest_feed_ = 0.0;
-  double lowest_slope_ = 0.0;
-  double highest_slope_ = 0.0;
-  bool empty_ = true;
-  std::vector<Arc> widest_;
-  double widest_sine_ = -1.0;
+  std::vector<Advance> advances_;  ///< of which none has both less radial and more upward advance
 };
 
 }  // namespace millstudy::force

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
+#include "process/chord.h"
+#include "process/path_engagement.h"
 
 namespace millstudy::process {
 namespace {
@@ -13,14 +16,27 @@ namespace {
 constexpr double kMostSamples = 1e9;
 constexpr std::int64_t kBatch = 4096;  // samples at a time, when one period has more
 
-void check_planar(const path::Interpolation& path) {
-  for (const path::Vec3& point : path.points) {
-    if (point.z != path.points.front().z) {
-      throw core::CaseError(
-          "the path climbs out of the xy plane: forces along it are not supported");
+/// The sampler of one set of arcs, kept until another set is asked for.
+class EngagedSampler {
+ public:
+  EngagedSampler(const force::ForceSampler& sampler, const force::Arc& arc)
+      : straight_(sampler), straight_arc_(arc) {}
+
+  const force::ForceSampler& of(const ArcSet& arcs) {
+    if (arcs == straight_arc_) return straight_;
+    if (!last_ || arcs != last_arcs_) {
+      last_ = straight_.with_arcs(arcs.arcs());
+      last_arcs_ = arcs;
     }
+    return *last_;
   }
-}
+
+ private:
+  const force::ForceSampler& straight_;
+  ArcSet straight_arc_;
+  std::optional<force::ForceSampler> last_;
+  ArcSet last_arcs_;
+};
 
 }  // namespace
 
@@ -34,7 +50,6 @@ std::int64_t first_sample_of_period(std::int64_t i, double samples_per_period) {
 PathForces machine_along(const path::Interpolation& path, const force::ForceSampler& sampler,
                          const Machining& machining, const SampleObserver& observer) {
   assert(sampler.angular_steps() == machining.angular_steps);
-  check_planar(path);
   const auto periods = static_cast<std::int64_t>(path.points.size()) - 1;
   const double samples_per_period =
       path.period * machining.spindle_speed * machining.angular_steps;  // (M2)
@@ -46,19 +61,21 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   PathForces result;
   force::FigureAccumulator figures(machining.figures, sampler);
   force::ForceSamples samples;
+  const PathEngagement engagement(path, machining);
+  EngagedSampler samplers(sampler, machining.engagement.arc());
+  const double rounding = rounding_of(path);
+  double direction = first_direction(path);
   for (std::int64_t i = 0; i < periods; ++i) {
-    const path::Vec3& from = path.points[i];
-    const path::Vec3& to = path.points[i + 1];
-    const double dx = to.x - from.x;
-    const double dy = to.y - from.y;
-    const double feed_per_tooth = std::hypot(dx, dy) / teeth_per_period;  // (M1)
-    const double feed_direction = std::atan2(dy, dx);                     // (M3)
-    const force::Feed feed = {feed_per_tooth, feed_direction};
+    const Chord chord = chord_of(path, i, rounding, direction);
+    direction = chord.direction;
+    const force::Feed feed{chord.length / teeth_per_period, direction, chord.slope};  // (M1), (M3)
+    const ArcSet arcs = engagement.arcs(i, direction);
+    const force::ForceSampler& engaged = samplers.of(arcs);
     const std::int64_t end = first_sample_of_period(i + 1, samples_per_period);
     for (std::int64_t first = first_sample_of_period(i, samples_per_period); first < end;) {
       const std::int64_t count = std::min(kBatch, end - first);
-      sampler.sample(machining.coefficients, feed, first, count, samples);
-      figures.add(sampler, machining.coefficients, feed, first, count, samples);
+      engaged.sample(machining.coefficients, feed, first, count, samples);
+      figures.add(engaged, machining.coefficients, feed, first, count, samples);
       if (observer) observer(first, count, samples);
       result.samples += count;
       first += count;

@@ -4,24 +4,12 @@
 #include <cstdint>
 #include <functional>
 
-#include "cutter/cutter.h"
-#include "force/coefficients.h"
-#include "force/engagement.h"
-#include "force/figures.h"
 #include "force/sampler.h"
+#include "force/figures.h"
 #include "path/interpolate.h"
+#include "process/machining.h"
 
 namespace millstudy::process {
-
-/// The spindle and the cutter it turns, along a path.
-struct Machining {
-  cutter::Cutter cutter;
-  force::Engagement engagement;
-  force::Coefficients coefficients;
-  double spindle_speed = 0.0;  ///< n [rev/s], > 0
-  int angular_steps = 360;     ///< force samples per revolution
-  force::FigureRequest figures = {};
-};
 
 /// Forces over the whole path, in machine axes.
 struct PathForces {
@@ -40,16 +28,21 @@ std::int64_t first_sample_of_period(std::int64_t i, double samples_per_period);
 
 /// The cutting force while the tool follows an interpolated path.
 ///
-/// Equations (M1)-(M4): in period i the tool moves along the chord at v_i = |chord| / T, so feed
-/// per tooth is v_i / (n N) and the feed frame is turned by the chord's direction; the spindle
+/// Equations (M1)-(M4), (M10): in period i the tool moves along the chord at v_i = |chord| / T, so
+/// feed per tooth is v_i / (n N) and the feed frame is turned by the chord's direction; the spindle
 /// angle runs on continuously. A fluctuation of the interpolator is a fluctuation of the force.
+/// The engagement of a period is that of PathEngagement; where it is machining.engagement, to the
+/// bit, nothing is prepared anew.
 ///
-/// @param path      points in a plane of constant z, at least two
+/// @param path      at least two points; slopes up to force::kSteepestSlope
 /// @param sampler   of the same cutter, engagement and angular steps as machining
 /// @param observer  may be empty
-/// @return statistics over all samples of the path, in N and N mm
-/// Accuracy: that of the sampler; statistics are sums over samples, in order.
-/// @throws core::CaseError if the path climbs, or needs more than 1e9 samples
+/// @return statistics over all samples of the path, air included, in N and N mm
+/// Accuracy: that of the sampler, and of an engagement that is constant over a period: with chords
+/// of R/100 and of R/200 mean and peak of the force differ as theory.md says. Statistics are sums
+/// over samples, in order.
+/// @throws core::CaseError if the path climbs by more than 15 deg, or needs more than 1e9 samples
+/// @throws core::InputError for an immersion whose radial depth is out of range
 PathForces machine_along(const path::Interpolation& path, const force::ForceSampler& sampler,
                          const Machining& machining, const SampleObserver& observer = {});
 

@@ -10,14 +10,12 @@
 #include "force/engagement.h"
 #include "force/variation.h"
 #include "path/interpolate.h"
+#include "process/stock.h"
 #include "study/setting.h"
 
 namespace millstudy::study {
 
 enum class Milling { slot, up, down };
-
-/// Where along the path the workpiece ends: the tool then comes in, or goes out, through its side.
-enum class Stock { endless, entry, exit, both };
 
 /// Where the chip coefficients come from.
 enum class CoefficientModel { constant, orthogonal };
@@ -36,7 +34,7 @@ struct CutSection {
   double spindle_speed = 0.0;            ///< [rev/s]
   std::optional<double> feed_rate;       ///< [mm/s]; this or the next
   std::optional<double> feed_per_tooth;  ///< [mm]
-  Stock stock = Stock::endless;
+  process::Stock stock = process::Stock::endless;
 };
 
 /// How the six coefficients vary; see force::Variation.

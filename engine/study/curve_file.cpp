@@ -96,6 +96,20 @@ std::string canonical_text(const path::CurveData& data) {
   return text;
 }
 
+/// Largest slope against the xy plane [rad], at points dense enough to warn of a path that climbs;
+/// whether a chord does is judged when it is cut.
+double steepest_slope(const path::Curve& curve) {
+  constexpr int kPoints = 2000;
+  double steepest = 0.0;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double u = curve.begin() + (curve.end() - curve.begin()) * i / kPoints;
+    const path::Vec3 along = curve.evaluate(u).first;
+    if (along.z == 0.0) continue;
+    steepest = std::max(steepest, std::atan2(std::abs(along.z), std::hypot(along.x, along.y)));
+  }
+  return steepest;
+}
+
 }  // namespace
 
 CurvePtr read_curve(const core::Value& table) {
@@ -109,11 +123,10 @@ CurvePtr read_curve(const core::Value& table) {
   for (std::string& text : path::faults(data)) faults.add(table.place, std::move(text));
   faults.throw_if_any();
   std::string canonical = canonical_text(data);
-  const bool planar = std::all_of(data.points.begin(), data.points.end(), [&](const path::Vec3& p) {
-    return p.z == data.points.front().z;
-  });
+  path::Curve curve(std::move(data));
+  const double steepest = steepest_slope(curve);
   return std::make_shared<const StudyCurve>(
-      StudyCurve{path::Curve(std::move(data)), std::move(canonical), planar});
+      StudyCurve{std::move(curve), std::move(canonical), steepest});
 }
 
 }  // namespace millstudy::study

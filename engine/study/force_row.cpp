@@ -35,9 +35,8 @@ void add_harmonics(Columns& columns, int harmonics) {
                                           {"force_z", "force z", "N"},
                                           {"torque", "torque", "N m"}}) {
     for (int n = 1; n <= harmonics; ++n) {
-      columns.push_back(
-          {fmt::format("{}_harmonic_{}", name, n), unit,
-           fmt::format("amplitude of {}, tooth-passing harmonic {}", words, n)});
+      columns.push_back({fmt::format("{}_harmonic_{}", name, n), unit,
+                         fmt::format("amplitude of {}, tooth-passing harmonic {}", words, n)});
     }
   }
 }

@@ -70,7 +70,7 @@ struct PartsOfTurn {
 using Field = std::variant<double*, std::optional<double>*, int*, std::vector<double>*,
                            NumberOrNumbers, PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*,
                            cutter::Shape*, cutter::Lead*, cutter::EdgeMeasure*, force::Rule*,
-                           std::optional<Milling>*, Stock*, CoefficientModel*>;
+                           std::optional<Milling>*, process::Stock*, CoefficientModel*>;
 
 /// One key of a study: the only place that says what it is called, what it may be and what it
 /// sets. Validation, the key reference, sweep axes and the case of a point all come from here.

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "core/units.h"
 #include "process/machine_along.h"
 #include "study/kinds.h"
 #include "study/rows.h"
@@ -9,18 +12,28 @@ namespace millstudy::study {
 namespace {
 
 constexpr std::size_t kMostPathBytes = 256 << 20;
-constexpr const char* kClimbs =
-    "the path climbs out of the xy plane: kind path_force needs a constant z";
-
 std::size_t bytes_of(const MeasuredPath& path) {
   return path.interpolation.points.size() * (sizeof(path::Vec3) + sizeof(double));
 }
 
 void check(const Given& given, const Case& base, Faults& faults) {
   check_force(given, base, faults);
-  if (!given.swept("path.curve_file") && !base.path.curve->planar) {
-    faults.add(given.place({"path.curve_file"}), kClimbs);
+  if (given.swept("path.curve_file")) return;  // the points that climb too far fail
+  const double steepest = base.path.curve->steepest;
+  if (steepest > force::kSteepestSlope * (1.0 + 1e-9)) {
+    faults.add(
+        given.place({"path.curve_file"}),
+        fmt::format("the path climbs by {:.3g} deg: kind path_force computes forces up to "
+                    "{:.0f} deg",
+                    core::deg_from_rad(steepest), core::deg_from_rad(force::kSteepestSlope)));
   }
+}
+
+/// How the engagement follows the path: slots, and angles that are given, do not.
+process::Immersion immersion(const CutSection& cut) {
+  using Side = process::Immersion::Side;
+  if (!cut.milling || *cut.milling == Milling::slot) return {};
+  return {*cut.milling == Milling::up ? Side::up : Side::down, *cut.radial_depth};
 }
 
 class PathForceEvaluator {
@@ -28,18 +41,20 @@ class PathForceEvaluator {
   explicit PathForceEvaluator(const Outputs& outputs) : outputs_(outputs) {}
 
   void operator()(const Case& point, std::span<double> row, sweep::Trace* trace) const {
-    if (!point.path.curve->planar) {
-      throw core::CaseError(kClimbs);
-    }
     check_point_coefficients(point);
     check_feed(point);
     const force::Engagement engaged = engagement(point);
     const auto path = shared_path(point);
     const force::FigureRequest request = figure_request(point, outputs_);
     const auto sampler = samplers_.get(point, engaged, request.stick_out.has_value());
-    const process::Machining machining{
-        point.cutter,        engaged, scaled_coefficients(point), point.cut.spindle_speed,
-        point.angular_steps, request};
+    const process::Machining machining{point.cutter,
+                                       engaged,
+                                       scaled_coefficients(point),
+                                       point.cut.spindle_speed,
+                                       point.angular_steps,
+                                       immersion(point.cut),
+                                       point.cut.stock,
+                                       request};
     const process::PathForces forces = process::machine_along(
         path->interpolation, *sampler, machining, trace ? recorder(point, *trace) : nullptr);
     static const std::size_t path_count = path_columns().size();

@@ -15,7 +15,7 @@ namespace millstudy::study {
 struct StudyCurve {
   path::Curve curve;
   std::string canonical;  ///< every number of it, for the study hash
-  bool planar = true;     ///< lies in a plane of constant z
+  double steepest = 0.0;  ///< largest slope up or down, of points all along it [rad]
 };
 using CurvePtr = std::shared_ptr<const StudyCurve>;
 

@@ -22,7 +22,7 @@ using testing::uniform;
 double thickest(const cutter::Cutter& cutter, const Engagement& engagement, const Feed& feed) {
   const Arc arc = engagement.arc();
   const std::vector<double> all = largest_chip_thickness(
-      CuttingEdges(cutter, engagement.axial_depth, {}), std::span(&arc, 1), feed);
+      CuttingEdges(cutter, engagement.axial_depth, {}), largest_sine(std::span(&arc, 1)), feed);
   return *std::max_element(all.begin(), all.end());
 }
 
@@ -57,7 +57,8 @@ TEST(ChipThickness, IsThatOfADenseSearchWithRunout) {
     const CuttingEdges edges(cutter, 6.0, {});
     const Arc arc = {uniform(random, 0.0, 1.0), uniform(random, 1.1, 3.1)};
     const Feed feed = {uniform(random, 0.02, 0.1), 0.0, uniform(random, -0.1, 0.1)};
-    const std::vector<double> found = largest_chip_thickness(edges, std::span(&arc, 1), feed);
+    const std::vector<double> found =
+        largest_chip_thickness(edges, largest_sine(std::span(&arc, 1)), feed);
     const ChipLaw law(edges);
     std::vector<Reach> reaches(law.reaches());
     for (int flute = 0; flute < cutter.flutes; ++flute) {
@@ -80,6 +81,24 @@ TEST(ChipThickness, IsThatOfADenseSearchWithRunout) {
     }
   }
   std::cout << "thickest chip below a dense search by at most " << worst << " of itself\n";
+}
+
+TEST(Figures, TheThickestChipIsOfThePieceThatCutsIt) {
+  const ForceSampler sampler(haber_cutter(cutter::Shape::flat), slot(0.5), {}, 36);
+  const Arc shallow = {0.0, 0.1}, whole = {0.0, 2.0};
+  FigureAccumulator figures({}, sampler);
+  ForceSamples samples;
+  const auto add = [&](std::span<const Arc> arcs, double feed) {
+    const ForceSampler engaged = sampler.with_arcs(arcs);
+    engaged.sample(kGgg70, {feed}, 0, 36, samples);
+    figures.add(engaged, kGgg70, {feed}, 0, 36, samples);
+  };
+  add({}, 0.9);
+  EXPECT_EQ(figures.result().chip_thickness_max, 0.0);
+  add(std::span(&shallow, 1), 0.5);
+  EXPECT_NEAR(figures.result().chip_thickness_max, 0.5 * std::sin(0.1), 1e-15);
+  add(std::span(&whole, 1), 0.06);
+  EXPECT_NEAR(figures.result().chip_thickness_max, 0.06, 1e-15);
 }
 
 TEST(Spectrum, IsTheFourierSeriesOfACosine) {

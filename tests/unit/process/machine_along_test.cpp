@@ -6,9 +6,12 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "paths.h"
 
 namespace millstudy::process {
 namespace {
+
+using testing::straight;
 
 const cutter::Cutter kCutter{cutter::Shape::flat, 12.0, 2, core::rad_from_deg(30.0)};
 const force::Coefficients kGgg70{2172.0, 850.0, 726.0, 17.3, 7.8, 6.7};
@@ -18,16 +21,6 @@ struct Bench {
   Machining machining{kCutter, engagement, kGgg70, 14500.0 / 60.0, 360};
   force::ForceSampler sampler{kCutter, engagement, {}, 360};
 };
-
-/// Equal chords of the given length, turned by theta; period 2 ms.
-path::Interpolation straight(int periods, double chord, double theta) {
-  path::Interpolation path;
-  path.period = 0.002;
-  for (int i = 0; i <= periods; ++i) {
-    path.points.push_back({i * chord * std::cos(theta), i * chord * std::sin(theta), 0.0});
-  }
-  return path;
-}
 
 TEST(MachineAlong, OnAStraightPathIsThePlainForce) {
   const Bench bench;
@@ -56,7 +49,8 @@ TEST(MachineAlong, TurnsWithThePath) {
   EXPECT_NEAR(turned.figures.statistics.y.mean, plain.figures.statistics.x.mean, 1e-10);
   EXPECT_NEAR(turned.figures.statistics.x.mean, -plain.figures.statistics.y.mean, 1e-10);
   EXPECT_NEAR(turned.figures.statistics.x.min, -plain.figures.statistics.y.max, 1e-10);
-  EXPECT_NEAR(turned.figures.statistics.resultant.rms, plain.figures.statistics.resultant.rms, 1e-10);
+  EXPECT_NEAR(turned.figures.statistics.resultant.rms, plain.figures.statistics.resultant.rms,
+              1e-10);
   EXPECT_NEAR(turned.figures.statistics.torque_max, plain.figures.statistics.torque_max, 1e-10);
 }
 
@@ -91,13 +85,6 @@ TEST(MachineAlong, ShowsTheFluctuationOfTheInterpolator) {
   const PathForces shaken = machine_along(uneven, bench.sampler, bench.machining);
   EXPECT_NEAR(shaken.figures.chip_thickness_max, 1.1 * plain.figures.chip_thickness_max, 1e-12);
   EXPECT_GT(shaken.figures.statistics.resultant.max, 1.05 * plain.figures.statistics.resultant.max);
-}
-
-TEST(MachineAlong, RefusesAPathThatClimbs) {
-  const Bench bench;
-  path::Interpolation climbing = straight(3, 0.058, 0.0);
-  climbing.points.back().z = 1e-3;
-  EXPECT_THROW(machine_along(climbing, bench.sampler, bench.machining), core::CaseError);
 }
 
 TEST(MachineAlong, RefusesMoreSamplesThanAnybodyCanWaitFor) {

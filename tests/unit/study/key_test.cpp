@@ -171,7 +171,7 @@ TEST(Key, ChoicesNameTheEnumerationInItsOrder) {
   apply(key("coefficients.model"), std::string("orthogonal"), target);
   EXPECT_EQ(target.law.model, CoefficientModel::orthogonal);
   apply(key("cut.stock"), std::string("both"), target);
-  EXPECT_EQ(target.cut.stock, Stock::both);
+  EXPECT_EQ(target.cut.stock, process::Stock::both);
   apply(key("cut.milling"), std::string("down"), target);
   EXPECT_EQ(target.cut.milling, Milling::down);
   apply(key("numerics.rule"), std::string("discs"), target);

@@ -33,8 +33,7 @@ TEST(Outputs, HaveTheHarmonicsOfForcesAndTorque) {
   const Study study = resolved(with_output(slot_study(), {{"harmonics", of(3)}}));
   ASSERT_EQ(study.columns.size(), 25u + 12u);
   EXPECT_EQ(study.columns[25].name, "force_x_harmonic_1");
-  EXPECT_EQ(study.columns[25].long_name,
-            "amplitude of force x, tooth-passing harmonic 1");
+  EXPECT_EQ(study.columns[25].long_name, "amplitude of force x, tooth-passing harmonic 1");
   EXPECT_EQ(study.columns[36].name, "torque_harmonic_3");
   EXPECT_EQ(study.columns[36].units, "N m");
 }
