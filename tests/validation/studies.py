@@ -172,6 +172,34 @@ def ggg70_slot(program, folder, check):
                 f"{mean[index]:.4f} N against {straight['force_resultant_mean'][0]:.4f} N")
 
 
+def corner_engagement(program, folder, check):
+    result = run(program, "corner_engagement", folder)
+    start, count = result["trace_start"], result["trace_count"]
+
+    def stretch(milling, depth, first, last):
+        point = at(result, ["milling", "radial_depth_mm"], milling=milling, radial_depth_mm=depth)
+        samples = slice(int(start[point]), int(start[point] + count[point]))
+        time = result["trace_time"][samples]
+        inside = (time > first) & (time < last)
+        return np.sqrt(sum(result[f"trace_force_{axis}"][samples][inside] ** 2 for axis in "xyz"))
+
+    # 25 mm/s: straight until 0.8 s, the corner of 12.57 mm until 1.303 s, straight again.
+    for depth in result["radial_depth_mm"]:
+        for milling, sign in (("down", 1.0), ("up", -1.0)):
+            equivalent = depth * (1 + sign * (6.0 - 0.5 * depth) / 8.0)
+            straight = run(program, "corner_engagement", folder, f'sweep.axes."cut.milling"=["{milling}"]',
+                           f'sweep.axes."cut.radial_depth_mm"=[{float(equivalent)!r}]', "cut.stock=endless",
+                           'path.curve_file=../data/curves/line.toml', "output.traces=false")
+            check.number(f"{depth} mm {milling}: corner as a straight cut of {equivalent:.4g} mm [N]", "own run, straight path",
+                         f"{straight['force_resultant_mean'].item():.4g}", stretch(milling, depth, 0.85, 1.15).mean(),
+                         0.005 * straight["force_resultant_mean"].item())
+    check.number("straight, 2 mm, mean [N]", "own run", "72.6", stretch("down", 2.0, 0.3, 0.75).mean())
+    check.number("inside corner, mean [N]", "own run", "106.8", stretch("down", 2.0, 0.85, 1.15).mean())
+    check.number("outside corner, mean [N]", "own run", "35.0", stretch("up", 2.0, 0.85, 1.15).mean())
+    check.holds("in air at the very start, and at the end", stretch("down", 2.0, -1.0, 0.04).max() == 0.0
+                and stretch("down", 2.0, 2.0, 3.0)[-1] < 20.0, f"{stretch('down', 2.0, 2.0, 3.0)[-1]:.2f} N in the last sample")
+
+
 def haber2004_worn_tool(program, folder, check):
     result = run(program, "haber2004_worn_tool", folder)
     mean, scale = result["force_resultant_mean"], result["edge_scale"]
