@@ -61,6 +61,13 @@ class Documentation(ProgramTest):
         self.assertEqual(page[page.index(mark) + len(mark):],
                          self.millstudy("keys", "--markdown").stdout)
 
+    def test_every_key_is_shown_in_a_ready_made_study(self):
+        shown = " ".join(path.read_text() for folder in ("studies", "data")
+                         for path in sorted((SOURCE / folder).rglob("*.toml")))
+        keys = set(re.findall(r"^  [a-z_]+\.(\w+)", self.millstudy("keys").stdout, re.MULTILINE))
+        self.assertGreater(len(keys), 60)
+        self.assertEqual([key for key in sorted(keys) if not re.search(rf"\b{key}\b", shown)], [])
+
     def test_every_link_leads_somewhere(self):
         for page in PAGES:
             for target in LINK.findall(page.read_text()):
