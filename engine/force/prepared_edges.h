@@ -83,6 +83,9 @@ class SizeEffectEdge {
                  const Arc& arc);
   void add_to(SamplingRun& run, const Combination& with) const;
 
+  /// False where a root is too steep for a series, as with m near 1 and hardly any helix.
+  bool is_resolved() const { return resolved_; }
+
  private:
   /// Tip angles origin .. origin + sign length.
   struct Stretch {
@@ -93,6 +96,7 @@ class SizeEffectEdge {
   };
   Closed closed_;
   std::vector<Stretch> stretches_;
+  bool resolved_ = true;
 };
 
 /// Any piece of teeth whose axis is offset from the spindle's, (F25): of flutes that have one helix

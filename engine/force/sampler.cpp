@@ -92,10 +92,15 @@ struct ForceSampler::Geometry {
         nonlinear(edges, edge_rule),
         tables(steps, edges->equal_flutes() ? cutter.flutes : 1),
         linear(can_be_linear(edge_rule)),
-        size_effect(variation.with_exponent()),
-        all_cylinder(
-            std::all_of(edges->pieces().begin(), edges->pieces().end(),
-                        [](const EdgePiece& piece) { return piece.segment.is_cylinder(); })) {
+        size_effect(variation.with_exponent()) {
+    for (const EdgePiece& piece : edges->pieces()) {
+      for (const double z : {piece.bottom, piece.top}) {
+        const double kappa = piece.segment.kappa_at(z);
+        const double cosine = piece.segment.is_cylinder() ? 0.0 : std::cos(kappa);
+        lowest_cos_kappa = std::min(lowest_cos_kappa, cosine);
+        highest_cos_kappa = std::max(highest_cos_kappa, cosine);
+      }
+    }
     if (takes_runout_edges(edge_rule)) {
       for (const EdgePiece& piece : plain_edges->pieces()) {
         runout.emplace_back(*plain_edges, rows, piece);
@@ -136,9 +141,10 @@ struct ForceSampler::Geometry {
   NonlinearForce nonlinear;
   AngleTables tables;  ///< of all teeth
 
-  bool linear;        ///< each flute sees a chip in proportion to the feed, or to a power of it
-  bool size_effect;   ///< it is a power
-  bool all_cylinder;  ///< no edge sees a feed upward
+  bool linear;       ///< each flute sees a chip in proportion to the feed, or to a power of it
+  bool size_effect;  ///< it is a power
+  double lowest_cos_kappa = 0.0;  ///< of the edge, 0 included
+  double highest_cos_kappa = 0.0;
   std::vector<ToothGeometry> geometries;
   std::vector<Tooth> teeth;
   std::vector<RunoutEdge> runout;
@@ -161,6 +167,7 @@ struct ForceSampler::Engaged {
         if (!g.size_effect || !first) continue;
         for (const EdgePiece& piece : g.plain_edges->pieces()) {
           power_edges.back().emplace_back(*g.plain_edges, g.rows, static_cast<int>(i), piece, arc);
+          size_effect_is_prepared &= power_edges.back().back().is_resolved();
         }
       }
     }
@@ -243,7 +250,10 @@ bool ForceSampler::is_linear(const Feed& feed) const {
   const Geometry& g = *geometry_;
   if (!g.linear) return false;
   if (g.size_effect) return engaged_->size_effect_is_prepared && feed.slope == 0.0;
-  return feed.upward() <= 0.0 || g.all_cylinder;  // climbing, the lower side has no chip
+  // A side of the edge that the feed upward leaves may have no chip: the lower one of a climbing
+  // tool, the undercut of a falling one.
+  const double up = feed.upward();
+  return up * g.highest_cos_kappa <= 0.0 && up * g.lowest_cos_kappa <= 0.0;
 }
 
 void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,

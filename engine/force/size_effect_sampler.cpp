@@ -12,6 +12,7 @@ namespace millstudy::force {
 namespace {
 
 constexpr double kNegligible = 1e-15;
+constexpr double kUnresolved = 1e-12;
 
 /// The lags of a piece, from its lower end.
 struct PieceLag {
@@ -21,11 +22,13 @@ struct PieceLag {
   double all() const { return lag_over(tangent, range); }
 };
 
-/// One tooth over one piece with its lower end at an angle, (F26): chip columns of unit feed.
+/// One tooth over one piece with its lower end at an angle, origin + d, (F26): chip columns of unit
+/// feed. The two are kept apart so that a limit at the origin is d away to the last digit.
 Basis<double> at_angle(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-                       const PieceLag& lag, const Arc& arc, double lower) {
+                       const PieceLag& lag, const Arc& arc, double origin, double d) {
+  const double lower = origin + d;
   const auto below = [&](double limit) {
-    return std::clamp(hand(lag.tangent) * (lower - limit) / lag.all(), 0.0, 1.0);
+    return std::clamp(hand(lag.tangent) * ((origin - limit) + d) / lag.all(), 0.0, 1.0);
   };
   const double a = below(arc.entry_angle), b = below(arc.exit_angle);
   const auto height = [&](double part) {
@@ -53,7 +56,8 @@ Basis<double> at_angle(const CuttingEdges& edges, Rows rows, int flute, const Ed
   return basis;
 }
 
-/// Chebyshev series of f(d), 0 <= d <= length, in 2 (d / length)^(1/4) - 1.
+/// Chebyshev series of f(d), 0 <= d <= length, in 2 (d / length)^(1/4) - 1; empty where 96 terms
+/// are not enough.
 template <class Function>
 PreparedRows series_of(double length, const Function& f) {
   for (const int nodes : {24, 48, 96}) {
@@ -73,7 +77,9 @@ PreparedRows series_of(double length, const Function& f) {
     for (int m = 0; m < nodes; ++m) largest = std::max(largest, series.largest(m));
     int terms = nodes;
     while (terms > 1 && series.largest(terms - 1) < kNegligible * largest) --terms;
-    if (terms > nodes - 2 && nodes < 96) continue;  // not resolved yet
+    // A root leaves terms that fall slowly: where the last are below the accuracy, so are the rest.
+    const double last = std::max(series.largest(nodes - 1), series.largest(nodes - 2));
+    if (terms > nodes - 2 && (nodes < 96 || last > kUnresolved * largest)) continue;
     series.keep(terms);
     return series;
   }
@@ -99,9 +105,10 @@ SizeEffectEdge::SizeEffectEdge(const CuttingEdges& edges, Rows rows, int flute,
     for (const double sign : {1.0, -1.0}) {
       const double origin = sign > 0.0 ? corners[i] : corners[i + 1];
       stretches_.push_back({origin + shift, sign, half, series_of(half, [&](double d) {
-                              return at_angle(edges, rows, flute, piece, lag, arc,
-                                              origin + sign * d);
+                              return at_angle(edges, rows, flute, piece, lag, arc, origin,
+                                              sign * d);
                             })});
+      resolved_ &= stretches_.back().series.rows() > 0;
     }
   }
 }
