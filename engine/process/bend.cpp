@@ -70,6 +70,10 @@ std::vector<Turn> turns_of(const Polyline& line, const path::Interpolation& path
   return turns;
 }
 
+/// Curvature is rounded to a multiple of this [1/mm]: on a circle it is then the same in almost
+/// every period, and so is what is prepared for its angles.
+constexpr double kCurvatureStep = 0x1p-32;
+
 /// Curvature at the middle of a chord.
 double curvature_of(const Polyline& line, const std::vector<Turn>& turns, std::size_t chord) {
   if (line.chords() < 2) return 0.0;
@@ -108,7 +112,8 @@ std::vector<Bend> bends_of(const path::Interpolation& path, double reach) {
     while (furthest + 1 < turns.size() && line.begin[furthest + 1] <= limit) ++furthest;
     const std::size_t last = std::max(furthest, chord);
     const double past_end = std::max(0.0, limit - line.middle(line.chords() - 1));
-    const Bend bend{curvature_of(line, turns, chord),
+    const double steps = curvature_of(line, turns, chord) / kCurvatureStep;
+    const Bend bend{std::nearbyint(steps) * kCurvatureStep,
                     turning[last] - turning[chord] + beyond * past_end};
     std::fill(bends.begin() + line.points[chord], bends.begin() + line.points[chord + 1], bend);
   }

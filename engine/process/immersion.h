@@ -17,9 +17,9 @@ struct Immersion {
   double radial_depth = 0.0;  ///< ae [mm], 0 < ae <= 2 R; not used by Side::constant
 };
 
-/// The radial depth on a straight path that has the immersion of this one on a bent path.
+/// The radial depth that on a straight path has the immersion of this one on a bent path.
 ///
-/// Equation (M5), ae (1 -+ k (R - ae/2)), limited to 0 (no cut) and 2 R (half a turn). Times the
+/// Equation (M5), limited to 0 (no cut) and 2 R (half a turn). Times the
 /// path's length it is the area cut. Exact to rounding where path and wall are circles.
 ///
 /// @param radius     R of the tool [mm], > 0
@@ -30,7 +30,7 @@ double equivalent_radial_depth(double radius, const Immersion& immersion, double
 
 /// Where the teeth cut on a bent path, one arc or none.
 ///
-/// Equations (M5) to (M7). Without a bend the very bits of force::up_milling() or down_milling().
+/// Equations (M5) and (M7). Without a bend the very bits of force::up_milling() or down_milling().
 /// @throws core::InputError for a radial depth out of range
 ArcSet immersed_arc(double radius, const Immersion& immersion, const Bend& bend);
 

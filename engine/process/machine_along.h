@@ -38,9 +38,9 @@ std::int64_t first_sample_of_period(std::int64_t i, double samples_per_period);
 /// @param sampler   of the same cutter, engagement and angular steps as machining
 /// @param observer  may be empty
 /// @return statistics over all samples of the path, air included, in N and N mm
-/// Accuracy: that of the sampler, and of an engagement that is constant over a period: with chords
-/// of R/100 and of R/200 mean and peak of the force differ as theory.md says. Statistics are sums
-/// over samples, in order.
+/// Accuracy: that of the sampler, and of an engagement that is held over a period: at the ends of a
+/// stock 29 mm long chords of R/100 leave 4e-4 of the mean force and 4e-5 of its peak, half as long
+/// ones half of that. Statistics are sums over samples, in order.
 /// @throws core::CaseError if the path climbs by more than 15 deg, or needs more than 1e9 samples
 /// @throws core::InputError for an immersion whose radial depth is out of range
 PathForces machine_along(const path::Interpolation& path, const force::ForceSampler& sampler,
