@@ -23,6 +23,25 @@ class RegimeFinder {
 
   void split(double z1, double z2) { split(z1, smallest_at(z1), z2, smallest_at(z2)); }
 
+  /// Of reaches that may cross more than once: looks between the ends before it takes their word.
+  void split_warily(double z1, double z2, int depth = 0) {
+    constexpr int kDeepest = 3;
+    const double middle = 0.5 * (z1 + z2);
+    const int m1 = smallest_at(z1), m2 = smallest_at(z2), between = smallest_at(middle);
+    const bool above = value(between) > 0.0;
+    look_at(z1);
+    const bool above1 = value(m1) > 0.0;
+    look_at(z2);
+    const bool above2 = value(m2) > 0.0;
+    const bool hidden = (m1 == m2 && between != m1) || (above1 == above2 && above != above1);
+    if (hidden && depth < kDeepest) {
+      split_warily(z1, middle, depth + 1);
+      split_warily(middle, z2, depth + 1);
+    } else {
+      split(z1, m1, z2, m2);
+    }
+  }
+
  private:
   /// Values of all reaches at a height go to at_point_ and sines_.
   void look_at(double z) {
@@ -135,10 +154,11 @@ void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& fee
     return;
   }
   RegimeFinder finder(edges, law, feed, flute, piece, tip_angle, out);
-  const int parts = crosses_once ? 1 : 8;
-  for (int i = 0; i < parts; ++i) {
-    finder.split(z1 + (z2 - z1) * i / parts,
-                 i + 1 == parts ? z2 : z1 + (z2 - z1) * (i + 1) / parts);
+  if (crosses_once) return finder.split(z1, z2);
+  constexpr int kParts = 16;
+  for (int i = 0; i < kParts; ++i) {
+    finder.split_warily(z1 + (z2 - z1) * i / kParts,
+                        i + 1 == kParts ? z2 : z1 + (z2 - z1) * (i + 1) / kParts);
   }
 }
 
