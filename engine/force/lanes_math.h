@@ -69,7 +69,7 @@ struct SineAndCosine {
   return {c, -(s * x)};
 }
 
-/// The angle in 0 .. pi whose cotangent is t, to 4e-16 absolute (measured); any t.
+/// The angle in 0 .. pi whose cotangent is t, to 5e-16 absolute (measured); any t.
 ///
 /// A polynomial to 1e-5 (Abramowitz and Stegun 4.4.49), then one step by the tangent of what is
 /// left, with the next term of the arc tangent.
