@@ -8,7 +8,7 @@
 namespace millstudy::force {
 namespace {
 
-constexpr double kNegligible = 1e-16;
+constexpr double kNegligible = 4e-16;
 
 /// How a load on a column turns into rows: a force in the plane of -exp(-i phi) times the planar
 /// weight, turned by a quarter for r and a; and along the axis, of t the torque, of r and a z.
