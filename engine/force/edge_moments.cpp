@@ -8,7 +8,10 @@
 namespace millstudy::force {
 namespace {
 
-constexpr double kNegligible = 4e-16;
+// Of the largest term. Rounding leaves up to 3e-16 in the terms of every order: a smaller number
+// would keep dozens that are nothing else.
+constexpr double kNegligible = 3e-16;
+constexpr double kResolved = 1e-15;  // the last terms: more points would not help
 
 /// How a load on a column turns into rows: a force in the plane of -exp(-i phi) times the planar
 /// weight, turned by a quarter for r and a; and along the axis, of t the torque, of r and a z.
@@ -201,10 +204,12 @@ MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
     series.terms = chebyshev(series.terms);
     double most = 0.0;
     for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
-    int count = nodes;
-    while (count > 1 && largest(series.terms[count - 1]) < kNegligible * most) --count;
-    if (count > nodes - 2 && nodes < 96) continue;  // not resolved: the tail is no rounding yet
-    series.terms.resize(count);
+    const double tail =
+        std::max(largest(series.terms[nodes - 1]), largest(series.terms[nodes - 2]));
+    if (tail > kResolved * most && nodes < 96) continue;
+    while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
+      series.terms.pop_back();
+    }
     return series;
   }
   return {};
