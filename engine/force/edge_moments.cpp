@@ -118,13 +118,16 @@ Basis<double> EdgeMoments::basis(Rows rows, double cos_b, double sin_b) const {
 
 namespace {
 
-double base_of(const EdgePiece& piece) {
-  if (!piece.segment.is_arc) return 0.0;
+SeriesVariable variable_of(const EdgePiece& piece) {
   constexpr double kFar = 3.0;
+  if (!piece.segment.is_arc) return SeriesVariable::linear();
+  // The lowest point of the arc below the lower end, in units of the piece.
   const double lowest = piece.segment.centre_height - piece.segment.corner_radius;
   const double base = (piece.bottom - lowest) / (piece.top - piece.bottom);
+  if (base > kFar) return SeriesVariable::linear();
   // An arc that begins at its lowest point may miss it by rounding.
-  return piece.bottom == 0.0 && base < 1e-9 ? 0.0 : base > kFar ? 0.0 : std::max(0.0, base);
+  const bool misses = piece.bottom == 0.0 && base < 1e-9;
+  return SeriesVariable::of_root(misses ? 0.0 : std::max(0.0, base));
 }
 
 /// Chebyshev coefficients of values at the nodes cos(pi (i + 1/2) / n).
@@ -186,17 +189,14 @@ class Growing {
 
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
                            const EdgePiece& piece) {
-  const double base = base_of(piece);
+  const SeriesVariable variable = variable_of(piece);
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
-  const double low = std::sqrt(base);
-  const double range = std::sqrt(base + 1.0) - low;
   for (const int nodes : {24, 48, 96}) {
-    MomentSeries series{base, std::vector<EdgeMoments>(nodes), {}};
+    MomentSeries series{variable, std::vector<EdgeMoments>(nodes), {}};
     Growing edge(edges, rows, flute, piece);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
-      const double root = low + range * (0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / nodes));
-      const double part = root * root - base;
+      const double part = variable.part_at(std::cos(core::kPi * (i + 0.5) / nodes));
       series.terms[i] = edge.at(std::clamp(
           edges.envelope().height_at_lag(lag1 + part * (lag2 - lag1)), piece.bottom, piece.top));
     }
@@ -212,7 +212,7 @@ MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
     }
     return series;
   }
-  return {};
+  __builtin_unreachable();
 }
 
 }  // namespace millstudy::force

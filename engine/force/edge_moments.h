@@ -7,6 +7,7 @@
 
 #include "force/edge.h"
 #include "force/harmonics.h"
+#include "force/series_variable.h"
 #include "force/slice.h"
 
 namespace millstudy::force {
@@ -46,12 +47,12 @@ class EdgeMoments {
   std::array<double, kCount> values_{};
 };
 
-/// The moments of a piece as functions of how far up it goes: Chebyshev series in
-/// sqrt(base + part), part the lag of the point in units of the piece, 0 .. 1.
+/// The moments of a piece as functions of how far up it goes: Chebyshev series of the part of its
+/// lag, 0 .. 1.
 struct MomentSeries {
-  /// Where an arc's root sqrt(z - z_lowest) is nearly singular in the piece, the series go with it:
-  /// its place below the lower end, in units of the piece. 0 where it is far.
-  double base;
+  /// The root of an arc, sqrt(z - z_lowest), where it is nearly singular in the piece; linear where
+  /// that is far, and on lines.
+  SeriesVariable variable;
   std::vector<EdgeMoments> terms;
   EdgeMoments whole;  ///< at part = 1
 };

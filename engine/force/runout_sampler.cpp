@@ -82,10 +82,7 @@ Range range_of(const std::vector<Line>& lines, std::size_t m, Range range) {
 class Stretch {
  public:
   Stretch(const MomentSeries& series, const Coefficients& k)
-      : low_(std::sqrt(series.base)),
-        base_(series.base),
-        scale_(2.0 / (std::sqrt(series.base + 1.0) - low_)),
-        whole_(worths(series.whole, k)) {
+      : variable_(series.variable), whole_(worths(series.whole, k)) {
     terms_.reserve(series.terms.size());
     for (const EdgeMoments& term : series.terms) terms_.push_back(worths(term, k));
   }
@@ -99,7 +96,7 @@ class Stretch {
     Values values;
     const auto within = (part > 0.0) & (part < 1.0);
     if (any(within)) {
-      const Lanes t = scale_ * (square_root(base_ + part) - low_) - 1.0;
+      const Lanes t = variable_.at(part);
       const Lanes twice = 2.0 * t;
       std::array<Lanes, kWorths> one{}, two{};
       for (std::size_t m = terms_.size() - 1; m > 0; --m) {
@@ -124,9 +121,7 @@ class Stretch {
   }
 
  private:
-  double low_;
-  double base_;
-  double scale_;
+  SeriesVariable variable_;
   Worths whole_;
   std::vector<Worths> terms_;
 };

@@ -157,12 +157,14 @@ template <class Variable>
 
 void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
                                 const std::vector<double>& terms, double sign, double origin,
-                                double length, double base) {
-  const double low = std::sqrt(base);
-  const double scale = 2.0 / (std::sqrt(base + 1.0) - low);
-  add_series(pass, indices, terms, sign, origin, length, [&](const Lanes& part) -> Lanes {
-    return scale * (square_root(base + part) - low) - 1.0;
-  });
+                                double length, const SeriesVariable& variable) {
+  if (variable.is_linear()) {
+    add_series(pass, indices, terms, sign, origin, length,
+               [&](const Lanes& part) { return variable.at_linear(part); });
+  } else {
+    add_series(pass, indices, terms, sign, origin, length,
+               [&](const Lanes& part) { return variable.at_root(part); });
+  }
 }
 
 void SamplingRun::add_quartic_chebyshev(const Pass& pass, IndexRange indices,
