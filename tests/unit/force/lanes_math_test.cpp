@@ -52,17 +52,22 @@ TEST(LanesMath, ArcCotangentIsRightForEveryMagnitude) {
     for (const double sign : {1.0, -1.0}) arguments.push_back(sign * size);
   }
   for (int i = -100'000; i <= 100'000; ++i) arguments.push_back(1e-4 * i);
-  long double worst = 0.0L;
+  long double worst = 0.0L, worst_of = 0.0L;
   by_lanes(arguments, [&](const Lanes& t, int count) {
-    const Lanes found = arc_cotangent(t);
+    const AngleLanes found = arc_cotangent(t);
     for (int i = 0; i < count; ++i) {
-      const long double off =
-          std::abs(static_cast<long double>(found[i]) - exact_arc_cotangent(t[i]));
+      const long double exact = exact_arc_cotangent(t[i]);
+      const long double off = std::abs(static_cast<long double>(found.angle[i]) - exact);
       EXPECT_TRUE(off < 6e-16L) << t[i];
       worst = std::max(worst, off);
+      const long double sine = std::abs(static_cast<long double>(found.of.sine[i]) - sinl(exact));
+      const long double cosine =
+          std::abs(static_cast<long double>(found.of.cosine[i]) - cosl(exact));
+      EXPECT_TRUE(std::max(sine, cosine) < 4e-16L) << t[i];
+      worst_of = std::max({worst_of, sine, cosine});
     }
   });
-  std::cout << "arc_cotangent: " << worst << " absolute\n";
+  std::cout << "arc_cotangent: " << worst << " absolute, its sine and cosine " << worst_of << "\n";
 }
 
 TEST(LanesMath, ComparesLaneByLane) {
