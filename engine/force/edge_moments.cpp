@@ -153,6 +153,41 @@ double largest(const EdgeMoments& moments) {
   return most;
 }
 
+/// Makes the terms factors of powers where that loses no more than a digit: powers of t have up to
+/// (1 + sqrt(2))^m times the factor of their Chebyshev polynomial.
+void turn_to_powers(MomentSeries& series) {
+  constexpr double kMostGrowth = 16.0;
+  double most = 0.0, sum = 0.0, growth = 1.0;
+  for (const EdgeMoments& term : series.terms) {
+    most = std::max(most, largest(term));
+    sum += growth * largest(term);
+    growth *= 1.0 + std::sqrt(2.0);
+  }
+  if (!(sum <= kMostGrowth * most)) return;
+  // Clenshaw's recurrence, on polynomials: next = term + 2 t one - two.
+  const auto count = series.terms.size();
+  std::vector<EdgeMoments> one(count), two(count);
+  for (std::size_t m = count - 1; m > 0; --m) {
+    for (std::size_t power = count - m; power-- > 0;) {  // two takes the place of one
+      auto& next = two[power].values();
+      for (int k = 0; k < EdgeMoments::kCount; ++k) {
+        next[k] = -next[k] + (power > 0 ? 2.0 * one[power - 1].values()[k] : 0.0) +
+                  (power == 0 ? series.terms[m].values()[k] : 0.0);
+      }
+    }
+    std::swap(one, two);
+  }
+  for (std::size_t power = count; power-- > 0;) {
+    auto& sum_of = series.terms[power].values();
+    for (int k = 0; k < EdgeMoments::kCount; ++k) {
+      const double constant = power == 0 ? sum_of[k] : 0.0;
+      sum_of[k] =
+          constant + (power > 0 ? one[power - 1].values()[k] : 0.0) - two[power].values()[k];
+    }
+  }
+  series.kind = Terms::powers;
+}
+
 /// Moments from the lower end on, up to a point that goes up.
 class Growing {
  public:
@@ -193,7 +228,7 @@ MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
   for (const int nodes : {24, 48, 96}) {
-    MomentSeries series{variable, std::vector<EdgeMoments>(nodes), {}};
+    MomentSeries series{variable, Terms::chebyshev, std::vector<EdgeMoments>(nodes), {}};
     Growing edge(edges, rows, flute, piece);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
       const double part = variable.part_at(std::cos(core::kPi * (i + 0.5) / nodes));
@@ -210,6 +245,7 @@ MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
     while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
       series.terms.pop_back();
     }
+    turn_to_powers(series);
     return series;
   }
   __builtin_unreachable();

@@ -7,7 +7,7 @@
 
 #include "force/edge.h"
 #include "force/harmonics.h"
-#include "force/series_variable.h"
+#include "force/series.h"
 #include "force/slice.h"
 
 namespace millstudy::force {
@@ -47,12 +47,12 @@ class EdgeMoments {
   std::array<double, kCount> values_{};
 };
 
-/// The moments of a piece as functions of how far up it goes: Chebyshev series of the part of its
-/// lag, 0 .. 1.
+/// The moments of a piece as functions of how far up it goes: series of the part of its lag.
 struct MomentSeries {
   /// The root of an arc, sqrt(z - z_lowest), where it is nearly singular in the piece; linear where
   /// that is far, and on lines.
   SeriesVariable variable;
+  Terms kind;
   std::vector<EdgeMoments> terms;
   EdgeMoments whole;  ///< at part = 1
 };

@@ -69,7 +69,9 @@ class RunoutStretch {
 
   /// @param cosine, sine  of the angle from feed axes to those of the rows
   RunoutStretch(const MomentSeries& series, const Coefficients& k, double cosine, double sine)
-      : variable_(series.variable), whole_(worths(series.whole, k, cosine, sine)) {
+      : variable_(series.variable),
+        kind_(series.kind),
+        whole_(worths(series.whole, k, cosine, sine)) {
     terms_.reserve(series.terms.size());
     for (const EdgeMoments& term : series.terms) terms_.push_back(worths(term, k, cosine, sine));
   }
@@ -82,22 +84,9 @@ class RunoutStretch {
   /// The piece from its lower end up to a part of it, 0 .. 1, where the immersion angle is `upper`.
   [[gnu::always_inline]] ForceLanes up_to(const Lanes& part, const SineAndCosine& upper,
                                           const Line& line) const {
-    const Lanes t = variable_.at(part);
-    const Lanes twice = 2.0 * t;
-    // Clenshaw's recurrence, all series abreast.
-    Worths<Lanes> one{}, two{};
-    for (std::size_t m = terms_.size() - 1; m > 0; --m) {
-      const Worths<double>& term = terms_[m];
-#pragma GCC unroll 12
-      for (int k = 0; k < kWorths; ++k) {
-        const Lanes next = term[k] + (twice * one[k] - two[k]);
-        two[k] = one[k];
-        one[k] = next;
-      }
-    }
-#pragma GCC unroll 12
-    for (int k = 0; k < kWorths; ++k) one[k] = terms_[0][k] + (t * one[k] - two[k]);
-    return force(one, upper, line);
+    return force(sum_series<kWorths, kWorths>(kind_, terms_.front().data(), terms_.size(),
+                                              variable_.at(part)),
+                 upper, line);
   }
 
  private:
@@ -142,6 +131,7 @@ class RunoutStretch {
   }
 
   SeriesVariable variable_;
+  Terms kind_;
   Worths<double> whole_;
   std::vector<Worths<double>> terms_;
 };
