@@ -212,7 +212,7 @@ class RunoutEdge::Sweep {
     const auto change = [&](const auto& where, const Lanes& t, const Line& next) {
       const AngleLanes at = arc_cotangent(hand * t);
       const Line difference = select(where, line - next, Line{});
-      force += stretch_.up_to(part_below(at.angle, place), at.of, difference);
+      force += stretch_.up_to_zero(part_below(at.angle, place), at.of, difference);
       line = select(where, next, line);
     };
     // The chip begins where the last of the rising lines becomes positive, unless one of the others

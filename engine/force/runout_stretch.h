@@ -66,6 +66,7 @@ class RunoutStretch {
  public:
   template <class Value>
   using Worths = std::array<Value, kWorths>;
+  static constexpr int kZeroWorths = 8;
 
   /// @param cosine, sine  of the angle from feed axes to those of the rows
   RunoutStretch(const MomentSeries& series, const Coefficients& k, double cosine, double sine)
@@ -73,7 +74,13 @@ class RunoutStretch {
         kind_(series.kind),
         whole_(worths(series.whole, k, cosine, sine)) {
     terms_.reserve(series.terms.size());
-    for (const EdgeMoments& term : series.terms) terms_.push_back(worths(term, k, cosine, sine));
+    zero_terms_.reserve(series.terms.size());
+    for (const EdgeMoments& term : series.terms) {
+      const Worths<double> w = worths(term, k, cosine, sine);
+      terms_.push_back(w);
+      zero_terms_.push_back({0.5 * (w[g0i] - w[g2i]), -0.5 * (w[g0r] - w[g2r]), w[vs], w[ts], w[er],
+                             w[ei], w[ez], w[et]});
+    }
   }
 
   /// All of the piece, its upper end at an immersion angle.
@@ -87,6 +94,20 @@ class RunoutStretch {
     return force(sum_series<kWorths, kWorths>(kind_, terms_.front().data(), terms_.size(),
                                               variable_.at(part)),
                  upper, line);
+  }
+
+  /// The same where the line is zero at the upper point, and so r sin(delta), delta from there
+  /// down: the force is then r exp(-i b) times functions of the part alone.
+  [[gnu::always_inline]] ForceLanes up_to_zero(const Lanes& part, const SineAndCosine& upper,
+                                               const Line& line) const {
+    const std::array<Lanes, kZeroWorths> w = sum_series<kZeroWorths, kZeroWorths>(
+        kind_, zero_terms_.front().data(), zero_terms_.size(), variable_.at(part));
+    const Lanes c = upper.cosine, s = upper.sine;
+    const Lanes r = line.p * s - line.q * c;
+    const Lanes real = r * w[0] - line.edge * w[4];
+    const Lanes imaginary = r * w[1] - line.edge * w[5];
+    return {c * real + s * imaginary, c * imaginary - s * real, r * w[2] + line.edge * w[6],
+            r * w[3] + line.edge * w[7]};
   }
 
  private:
@@ -134,6 +155,7 @@ class RunoutStretch {
   Terms kind_;
   Worths<double> whole_;
   std::vector<Worths<double>> terms_;
+  std::vector<std::array<double, kZeroWorths>> zero_terms_;
 };
 
 }  // namespace millstudy::force
