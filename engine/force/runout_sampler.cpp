@@ -193,17 +193,19 @@ class RunoutEdge::Sweep {
     // A smallest line that is negative at both ends is so between them; of two one cannot know.
     const auto crosses =
         (below.which != above.which) | ((below.value >= 0.0) != (above.value >= 0.0));
-    if (any(crosses)) add_crossings(force, line, lines, place, bottom, top, crosses);
+    if (any(crosses)) add_crossings(force, line, above.line, lines, place, bottom, top, crosses);
     force += cut_above ? up_to(upper_limit, place, line) : stretch_.whole(top, line);
     return force;
   }
 
   /// Walks up the edge from line to line: adds, where one gives way to the next, the stretch up to
-  /// there under their difference. `line` is that at the lower end, and then that at the upper.
+  /// there under their difference. `line` is that at the lower end, and then that at the upper,
+  /// which should be `last`.
   template <class Mask>
-  [[gnu::noinline]] void add_crossings(ForceLanes& force, Line& line, const Line* lines,
-                                       const Place& place, const SineAndCosine& bottom,
-                                       const SineAndCosine& top, const Mask& crosses) const {
+  [[gnu::noinline]] void add_crossings(ForceLanes& force, Line& line, const Line& last,
+                                       const Line* lines, const Place& place,
+                                       const SineAndCosine& bottom, const SineAndCosine& top,
+                                       const Mask& crosses) const {
     // Over sin(phi) lines are linear in the cotangent, which goes up with the edge of a right-hand
     // cutter. At 0 and pi the sine may come out below zero by rounding: that would turn the sign.
     const double hand = edge_.hand_;
@@ -235,6 +237,8 @@ class RunoutEdge::Sweep {
     }
     // Slopes fall from line to line, so that no more than all can follow.
     for (int step = 0; step <= before_.count(); ++step) {
+      const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
+      if (!any(walks)) return;
       const Lanes p = hand * line.p;
       Lanes end = p < 0.0 ? -line.q / p : Lanes{} + kHuge;  // the chip ends
       Line next{};
@@ -245,7 +249,7 @@ class RunoutEdge::Sweep {
         end = sooner ? root : end;
         next = select(sooner, lines[m], next);
       }
-      const auto where = crosses & (line.edge > 0.0) & (end < t_top);
+      const auto where = walks & (line.edge > 0.0) & (end < t_top);
       if (!any(where)) return;
       change(where, end, next);
     }
