@@ -3,57 +3,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "force/lanes_math.h"
 #include "force/prepared_edges.h"
 #include "force/runout_stretch.h"
+#include "force/teeth_before.h"
 #include "force/tooth_integral.h"
 
 namespace millstudy::force {
 namespace {
 
 constexpr double kHuge = std::numeric_limits<double>::max();
-
-/// The teeth before one tooth, as functions of the spindle angle: what (F23) is made of.
-class TeethBefore {
- public:
-  TeethBefore(const CuttingEdges& edges, int flute, const Feed& feed)
-      : offset_(edges.cutter().runout.offset),
-        zero_(std::remainder(feed.direction, 2.0 * core::kPi) + edges.cutter().runout.angle),
-        count_(static_cast<int>(edges.flutes().size())) {
-    std::array<Reach, RunoutEdge::kMostFlutes> reaches;
-    ChipLaw(edges).find(flute, 0.0, 0.0, std::span(reaches).first(count_));
-    for (int m = 0; m < count_; ++m) {
-      const double ahead = reaches[m].ratio * 2.0 * core::kPi / count_;
-      before_[m] = {feed.per_tooth * reaches[m].ratio, 1.0 - std::cos(ahead), std::sin(ahead)};
-    }
-    before_[count_ - 1].one_less_cosine = before_[count_ - 1].sine = 0.0;  // itself, a turn ago
-  }
-
-  int count() const { return count_; }
-
-  /// The line of each at a spindle angle, of which cosine and sine are given.
-  [[gnu::always_inline]] void find(const Lanes& c1, const Lanes& s1, Line* lines) const {
-    const Lanes cos_a = offset_ * (c1 * zero_.cosine - s1 * zero_.sine);
-    const Lanes sin_a = offset_ * (s1 * zero_.cosine + c1 * zero_.sine);
-    for (int m = 0; m < count_; ++m) {
-      const Before& b = before_[m];
-      lines[m] = {cos_a * b.one_less_cosine - sin_a * b.sine,
-                  b.feed + (sin_a * b.one_less_cosine + cos_a * b.sine), Lanes{} + 1.0};
-    }
-  }
-
- private:
-  struct Before {
-    double feed;             ///< since it passed [mm]
-    double one_less_cosine;  ///< of how far ahead it stands
-    double sine;
-  };
-  double offset_;
-  Angle zero_;
-  int count_;
-  std::array<Before, RunoutEdge::kMostFlutes> before_;
-};
 
 /// The smallest of the lines at a point of the edge.
 struct Smallest {
@@ -99,34 +60,96 @@ class RunoutEdge::Sweep {
         stretch_(stretch),
         before_(before),
         entry_(arc.entry_angle),
-        exit_(arc.exit_angle) {}
+        exit_(arc.exit_angle),
+        closed_(edge.hand_ > 0.0 ? Closed::above : Closed::below) {
+    const double lower = edge_.lower_shift_.value, upper = lower + edge_.hand_ * edge_.lag_;
+    first_ = entry_.value + std::min(lower, upper);
+    entered_ = entry_.value + std::max(lower, upper);
+    leaving_ = exit_.value + std::min(lower, upper);
+    last_ = exit_.value + std::max(lower, upper);
+    if (entered_ < leaving_) find_spans();
+  }
 
   void add_to(SamplingRun& run) const {
-    const bool right = edge_.hand_ > 0.0;
-    const Closed closed = right ? Closed::above : Closed::below;
-    // Angles of the tip at which the ends of the piece pass the limits.
-    const double lower = edge_.lower_shift_.value, upper = lower + edge_.hand_ * edge_.lag_;
-    const double entered = entry_.value + std::max(lower, upper);
-    const double leaving = exit_.value + std::min(lower, upper);
-    const double first = entry_.value + std::min(lower, upper);
-    const double last = exit_.value + std::max(lower, upper);
-    const bool fits = entered < leaving;
-    run.for_each_pass(first, last, [&](const Pass& pass) {
-      const auto between = [&](double from, double to) {
-        return run.between(pass, from, to, closed);
-      };
-      const IndexRange entering = between(first, std::min(entered, leaving));
-      const IndexRange full = between(std::min(entered, leaving), std::max(entered, leaving));
-      const IndexRange exiting = between(std::max(entered, leaving), last);
-      right ? add<Cut::upper>(run, pass, entering) : add<Cut::lower>(run, pass, entering);
-      fits ? add<Cut::none>(run, pass, full) : add<Cut::both>(run, pass, full);
-      right ? add<Cut::lower>(run, pass, exiting) : add<Cut::upper>(run, pass, exiting);
+    run.for_each_pass(first_, last_, [&](const Pass& pass) {
+      const double full = std::min(entered_, leaving_), less = std::max(entered_, leaving_);
+      if (edge_.hand_ > 0.0) {
+        add<Cut::upper>(run, pass, first_, full);
+        add<Cut::lower>(run, pass, less, last_);
+      } else {
+        add<Cut::lower>(run, pass, first_, full);
+        add<Cut::upper>(run, pass, less, last_);
+      }
+      if (spans_.empty()) add<Cut::both>(run, pass, full, less);
+      for (const Span& span : spans_) {
+        if (span.line == kSeveral) {
+          add<Cut::none>(run, pass, span.from, span.to);
+        } else if (span.line != kNone) {
+          add_under(run, pass, span);
+        }
+      }
     });
   }
 
  private:
+  static constexpr int kSeveral = -1;
+  static constexpr int kNone = -2;
+
+  /// Angles of the tip between which the whole piece is in cut and one line is the smallest at both
+  /// of its ends, and so between them: lines are linear in the cotangent of the immersion angle.
+  struct Span {
+    double from;
+    double to;
+    int line;  ///< or kSeveral, or kNone
+  };
+
+  void find_spans() {
+    const TeethBefore::AtPoint lower(before_, edge_.lower_shift_.value);
+    const TeethBefore::AtPoint upper(before_, edge_.upper_shift_.value);
+    std::vector<double> bounds = {entered_, leaving_};
+    const auto add_bounds = [&](const TeethBefore::AtPoint& point, double shift) {
+      point.for_each_change([&](double sin_phi) {
+        const double phi = std::asin(sin_phi);
+        for (const double tip : {phi + shift, core::kPi - phi + shift}) {
+          if (tip > entered_ && tip < leaving_) bounds.push_back(tip);
+        }
+      });
+    };
+    add_bounds(lower, edge_.lower_shift_.value);
+    add_bounds(upper, edge_.upper_shift_.value);
+    std::sort(bounds.begin(), bounds.end());
+    for (std::size_t i = 1; i < bounds.size(); ++i) {
+      const double middle = 0.5 * (bounds[i - 1] + bounds[i]);
+      const int line = line_at(lower.smallest_at(std::sin(middle - edge_.lower_shift_.value)),
+                               upper.smallest_at(std::sin(middle - edge_.upper_shift_.value)));
+      if (!spans_.empty() && spans_.back().line == line) {
+        spans_.back().to = bounds[i];
+      } else {
+        spans_.push_back({bounds[i - 1], bounds[i], line});
+      }
+    }
+  }
+
+  static int line_at(const TeethBefore::AtPoint::Chip& lower,
+                     const TeethBefore::AtPoint::Chip& upper) {
+    if (lower.which != upper.which || (lower.value < 0.0) != (upper.value < 0.0)) return kSeveral;
+    return lower.value < 0.0 ? kNone : lower.which;
+  }
+
+  void add_under(SamplingRun& run, const Pass& pass, const Span& span) const {
+    const AngleTables& tables = run.tables();
+    const IndexRange indices = run.between(pass, span.from, span.to, closed_);
+    run.accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
+      const ForceLanes force =
+          stretch_.whole(at_end(pass, edge_.upper_shift_, c1, s1), before_.find(span.line, c1, s1));
+      x = force.x, y = force.y, z = force.z, torque = force.torque;
+    });
+  }
+
   template <Cut cut>
-  void add(SamplingRun& run, const Pass& pass, IndexRange indices) const {
+  void add(SamplingRun& run, const Pass& pass, double from, double to) const {
+    const IndexRange indices = run.between(pass, from, to, closed_);
     if (indices.first >= indices.last) return;
     const AngleTables& tables = run.tables();
     const double start = pass.offset - edge_.lower_shift_.value;
@@ -260,6 +283,13 @@ class RunoutEdge::Sweep {
   const TeethBefore& before_;
   Angle entry_;
   Angle exit_;
+  Closed closed_;
+  // Angles of the tip at which the ends of the piece pass the limits.
+  double first_;
+  double entered_;
+  double leaving_;
+  double last_;
+  std::vector<Span> spans_;  ///< from entered_ to leaving_
 };
 
 void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,

@@ -57,7 +57,8 @@ template <int kSeries, int kStride>
                                                                     const Lanes& t) {
   std::array<Lanes, kSeries> one{};
   if (kind == Terms::powers) {  // Horner
-    for (const double* term = terms + kStride * (count - 1); term >= terms; term -= kStride) {
+    for (std::size_t m = count; m-- > 0;) {
+      const double* term = terms + kStride * m;
 #pragma GCC unroll 12
       for (int k = 0; k < kSeries; ++k) one[k] = one[k] * t + term[k];
     }
@@ -65,7 +66,8 @@ template <int kSeries, int kStride>
   }
   const Lanes twice = 2.0 * t;  // Clenshaw
   std::array<Lanes, kSeries> two{};
-  for (const double* term = terms + kStride * (count - 1); term > terms; term -= kStride) {
+  for (std::size_t m = count - 1; m > 0; --m) {
+    const double* term = terms + kStride * m;
 #pragma GCC unroll 12
     for (int k = 0; k < kSeries; ++k) {
       const Lanes next = term[k] + (twice * one[k] - two[k]);
