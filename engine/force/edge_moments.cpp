@@ -8,7 +8,10 @@
 namespace millstudy::force {
 namespace {
 
-constexpr double kNegligible = 1e-15;  // what rounding leaves in all terms is below it
+// Of the largest term. Rounding leaves up to 3e-16 in the terms of every order: a smaller number
+// would keep dozens that are nothing else.
+constexpr double kNegligible = 3e-16;
+constexpr double kResolved = 1e-15;  // the last terms: more points would not help
 
 /// How a load on a column turns into rows: a force in the plane of -exp(-i phi) times the planar
 /// weight, turned by a quarter for r and a; and along the axis, of t the torque, of r and a z.
@@ -115,13 +118,16 @@ Basis<double> EdgeMoments::basis(Rows rows, double cos_b, double sin_b) const {
 
 namespace {
 
-double base_of(const EdgePiece& piece) {
-  if (!piece.segment.is_arc) return 0.0;
+SeriesVariable variable_of(const EdgePiece& piece) {
   constexpr double kFar = 3.0;
+  if (!piece.segment.is_arc) return SeriesVariable::linear();
+  // The lowest point of the arc below the lower end, in units of the piece.
   const double lowest = piece.segment.centre_height - piece.segment.corner_radius;
   const double base = (piece.bottom - lowest) / (piece.top - piece.bottom);
+  if (base > kFar) return SeriesVariable::linear();
   // An arc that begins at its lowest point may miss it by rounding.
-  return piece.bottom == 0.0 && base < 1e-9 ? 0.0 : base > kFar ? 0.0 : std::max(0.0, base);
+  const bool misses = piece.bottom == 0.0 && base < 1e-9;
+  return SeriesVariable::of_root(misses ? 0.0 : std::max(0.0, base));
 }
 
 /// Chebyshev coefficients of values at the nodes cos(pi (i + 1/2) / n).
@@ -145,6 +151,41 @@ double largest(const EdgeMoments& moments) {
   double most = 0.0;
   for (const double value : moments.values()) most = std::max(most, std::abs(value));
   return most;
+}
+
+/// Makes the terms factors of powers where that loses no more than a digit: powers of t have up to
+/// (1 + sqrt(2))^m times the factor of their Chebyshev polynomial.
+void turn_to_powers(MomentSeries& series) {
+  constexpr double kMostGrowth = 16.0;
+  double most = 0.0, sum = 0.0, growth = 1.0;
+  for (const EdgeMoments& term : series.terms) {
+    most = std::max(most, largest(term));
+    sum += growth * largest(term);
+    growth *= 1.0 + std::sqrt(2.0);
+  }
+  if (!(sum <= kMostGrowth * most)) return;
+  // Clenshaw's recurrence, on polynomials: next = term + 2 t one - two.
+  const auto count = series.terms.size();
+  std::vector<EdgeMoments> one(count), two(count);
+  for (std::size_t m = count - 1; m > 0; --m) {
+    for (std::size_t power = count - m; power-- > 0;) {  // two takes the place of one
+      auto& next = two[power].values();
+      for (int k = 0; k < EdgeMoments::kCount; ++k) {
+        next[k] = -next[k] + (power > 0 ? 2.0 * one[power - 1].values()[k] : 0.0) +
+                  (power == 0 ? series.terms[m].values()[k] : 0.0);
+      }
+    }
+    std::swap(one, two);
+  }
+  for (std::size_t power = count; power-- > 0;) {
+    auto& sum_of = series.terms[power].values();
+    for (int k = 0; k < EdgeMoments::kCount; ++k) {
+      const double constant = power == 0 ? sum_of[k] : 0.0;
+      sum_of[k] =
+          constant + (power > 0 ? one[power - 1].values()[k] : 0.0) - two[power].values()[k];
+    }
+  }
+  series.kind = Terms::powers;
 }
 
 /// Moments from the lower end on, up to a point that goes up.
@@ -183,17 +224,14 @@ class Growing {
 
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
                            const EdgePiece& piece) {
-  const double base = base_of(piece);
+  const SeriesVariable variable = variable_of(piece);
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
-  const double low = std::sqrt(base);
-  const double range = std::sqrt(base + 1.0) - low;
   for (const int nodes : {24, 48, 96}) {
-    MomentSeries series{base, std::vector<EdgeMoments>(nodes), {}};
+    MomentSeries series{variable, Terms::chebyshev, std::vector<EdgeMoments>(nodes), {}};
     Growing edge(edges, rows, flute, piece);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
-      const double root = low + range * (0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / nodes));
-      const double part = root * root - base;
+      const double part = variable.part_at(std::cos(core::kPi * (i + 0.5) / nodes));
       series.terms[i] = edge.at(std::clamp(
           edges.envelope().height_at_lag(lag1 + part * (lag2 - lag1)), piece.bottom, piece.top));
     }
@@ -201,13 +239,16 @@ MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
     series.terms = chebyshev(series.terms);
     double most = 0.0;
     for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
-    int count = nodes;
-    while (count > 1 && largest(series.terms[count - 1]) < kNegligible * most) --count;
-    if (count > nodes - 2 && nodes < 96) continue;  // not resolved: the tail is no rounding yet
-    series.terms.resize(count);
+    const double tail =
+        std::max(largest(series.terms[nodes - 1]), largest(series.terms[nodes - 2]));
+    if (tail > kResolved * most && nodes < 96) continue;
+    while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
+      series.terms.pop_back();
+    }
+    turn_to_powers(series);
     return series;
   }
-  return {};
+  __builtin_unreachable();
 }
 
 }  // namespace millstudy::force

@@ -7,6 +7,7 @@
 
 #include "force/edge.h"
 #include "force/harmonics.h"
+#include "force/series.h"
 #include "force/slice.h"
 
 namespace millstudy::force {
@@ -46,18 +47,18 @@ class EdgeMoments {
   std::array<double, kCount> values_{};
 };
 
-/// The moments of a piece as functions of how far up it goes: Chebyshev series in
-/// sqrt(base + part), part the lag of the point in units of the piece, 0 .. 1.
+/// The moments of a piece as functions of how far up it goes: series of the part of its lag.
 struct MomentSeries {
-  /// Where an arc's root sqrt(z - z_lowest) is nearly singular in the piece, the series go with it:
-  /// its place below the lower end, in units of the piece. 0 where it is far.
-  double base;
+  /// The root of an arc, sqrt(z - z_lowest), where it is nearly singular in the piece; linear where
+  /// that is far, and on lines.
+  SeriesVariable variable;
+  Terms kind;
   std::vector<EdgeMoments> terms;
   EdgeMoments whole;  ///< at part = 1
 };
 
-/// (F14): terms below 1e-15 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
-/// deg takes 96.
+/// (F14): terms below 3e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
+/// deg takes 96. Of a ball at 30 deg about 21 remain.
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
 
 }  // namespace millstudy::force

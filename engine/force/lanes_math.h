@@ -69,11 +69,17 @@ struct SineAndCosine {
   return {c, -(s * x)};
 }
 
-/// The angle in 0 .. pi whose cotangent is t, to 4e-16 absolute (measured); any t.
+/// An angle in 0 .. pi with its sine and cosine.
+struct AngleLanes {
+  Lanes angle;
+  SineAndCosine of;
+};
+
+/// The angle in 0 .. pi whose cotangent is t, to 5e-16 absolute (measured); any t.
 ///
-/// A polynomial to 1e-5 (Abramowitz and Stegun 4.4.49), then one step by the tangent of what is
-/// left, with the next term of the arc tangent.
-[[gnu::always_inline]] inline Lanes arc_cotangent(const Lanes& t) {
+/// A polynomial to 1e-5 (Abramowitz and Stegun 4.4.49), then one step by the sine of what is left,
+/// with the next term of the arc sine.
+[[gnu::always_inline]] inline AngleLanes arc_cotangent(const Lanes& t) {
   const Lanes size = t < 0.0 ? -t : t;
   const Lanes part = size > 1.0 ? 1.0 / size : size;
   const Lanes square = part * part;
@@ -84,11 +90,12 @@ struct SineAndCosine {
   const Lanes arc_tangent = size > 1.0 ? 0.5 * core::kPi - crude : crude;
   const Lanes near = t < 0.0 ? 0.5 * core::kPi + arc_tangent : 0.5 * core::kPi - arc_tangent;
   const SineAndCosine at = sine_and_cosine(near);
-  // (t, 1), scaled where t is huge, is at the angle sought; this is the tangent of what is left.
-  const Lanes y = size > 1.0 ? part : Lanes{} + 1.0;
-  const Lanes x = size > 1.0 ? (t < 0.0 ? Lanes{} - 1.0 : Lanes{} + 1.0) : t;
-  const Lanes rest = (y * at.cosine - x * at.sine) / (y * at.sine + x * at.cosine);
-  return near + rest * (1.0 - rest * rest * (1.0 / 3.0));
+  // (t, 1), scaled where t is huge, is at the angle sought.
+  const Lanes scale = 1.0 / square_root(1.0 + square);
+  const Lanes y = scale * (size > 1.0 ? part : Lanes{} + 1.0);
+  const Lanes x = scale * (size > 1.0 ? (t < 0.0 ? Lanes{} - 1.0 : Lanes{} + 1.0) : t);
+  const Lanes rest = y * at.cosine - x * at.sine;
+  return {near + rest * (1.0 + rest * rest * (1.0 / 6.0)), {y, x}};
 }
 
 }  // namespace millstudy::force

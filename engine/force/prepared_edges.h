@@ -106,18 +106,22 @@ class RunoutEdge {
   /// @param edges  of the cutter without its runout and pitch
   RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece);
 
-  /// Adds all flutes, or one.
+  /// Adds flutes first .. last.
   /// @param edges  of the cutter as it is
-  void add_to(SamplingRun& run, const CuttingEdges& edges, int flute, const Coefficients& k,
-              const Feed& feed, const Arc& arc) const;
+  void add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,
+              const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const;
+
+  /// Beyond so many flutes their pairs would take longer than the integral.
+  static constexpr int kMostFlutes = 16;
 
  private:
-  struct Sweep;
+  class Sweep;
   Rows rows_;
   double hand_;
-  double shift_;    ///< immersion angle of the tip less that of the lower end [rad]
-  double lag_;      ///< of the upper end behind the lower [rad], > 0
-  double per_lag_;  ///< its reciprocal, finite also without helix
+  Angle lower_shift_;  ///< immersion angle of the tip less that of the lower end
+  Angle upper_shift_;  ///< and less that of the upper end
+  double lag_;         ///< of the upper end behind the lower [rad], > 0
+  double per_lag_;     ///< its reciprocal, finite also without helix
   MomentSeries series_;
 };
 

@@ -7,322 +7,301 @@
 
 #include "force/lanes_math.h"
 #include "force/prepared_edges.h"
+#include "force/runout_stretch.h"
+#include "force/teeth_before.h"
 #include "force/tooth_integral.h"
 
 namespace millstudy::force {
 namespace {
 
-/// What the moments of a stretch are worth under the coefficients: the numbers that (F25) needs.
-enum Worth {
-  g0r,  ///< planar chip force, constant part, as a complex number
-  g0i,
-  g2r,  ///< planar chip force, second harmonic
-  g2i,
-  vc,  ///< axial chip force
-  vs,
-  tc,  ///< torque of the chip
-  ts,
-  er,  ///< planar edge force
-  ei,
-  ez,  ///< axial edge force
-  et,  ///< torque of the edge
-  kWorths
-};
-using Worths = std::array<double, kWorths>;
+constexpr double kHuge = std::numeric_limits<double>::max();
 
-Worths worths(const EdgeMoments& m, const Coefficients& k) {
-  Worths w;
-  w[g0r] = k.Ktc * m.chip(0, 0);
-  w[g0i] = k.Krc * m.chip(1, 0) + k.Kac * m.chip(2, 0);
-  w[g2r] = k.Ktc * m.chip(0, 1) - (k.Krc * m.chip(1, 2) + k.Kac * m.chip(2, 2));
-  w[g2i] = k.Ktc * m.chip(0, 2) + (k.Krc * m.chip(1, 1) + k.Kac * m.chip(2, 1));
-  w[vc] = k.Krc * m.chip(1, 3) + k.Kac * m.chip(2, 3);
-  w[vs] = k.Krc * m.chip(1, 4) + k.Kac * m.chip(2, 4);
-  w[tc] = k.Ktc * m.chip(0, 3);
-  w[ts] = k.Ktc * m.chip(0, 4);
-  w[er] = k.Kte * m.edge(0, 0) - (k.Kre * m.edge(1, 1) + k.Kae * m.edge(2, 1));
-  w[ei] = k.Kte * m.edge(0, 1) + (k.Kre * m.edge(1, 0) + k.Kae * m.edge(2, 0));
-  w[ez] = k.Kre * m.edge(1, 2) + k.Kae * m.edge(2, 2);
-  w[et] = k.Kte * m.edge(0, 2);
-  return w;
+/// The smallest of the lines at a point of the edge.
+struct Smallest {
+  Line line;  ///< zero where the smallest is negative
+  Lanes which;
+  Lanes value;
+};
+
+[[gnu::always_inline]] inline Smallest smallest_at(const SineAndCosine& phi, const Line* lines,
+                                                   int count) {
+  Smallest found = {lines[0], Lanes{}, lines[0].at(phi)};
+  for (int m = 1; m < count; ++m) {
+    const Lanes here = lines[m].at(phi);
+    const auto less = here < found.value;
+    found = {select(less, lines[m], found.line),
+             less ? Lanes{} + static_cast<double>(m) : found.which, less ? here : found.value};
+  }
+  found.line = select(found.value >= 0.0, found.line, Line{});
+  return found;
 }
 
-/// Over sin(kappa), the chip of one reach is P cos(phi) + Q sin(phi), (F23).
-struct Line {
-  Lanes p;
-  Lanes q;
-
-  Lanes at(const SineAndCosine& phi) const { return p * phi.cosine + q * phi.sine; }
-};
-
-/// The cotangents between which a reach is the smallest and positive.
-struct Range {
-  Lanes low;
-  Lanes high;
-};
-
-/// What of a range line m of all is the smallest and positive in.
-Range range_of(const std::vector<Line>& lines, std::size_t m, Range range) {
-  constexpr double kHuge = std::numeric_limits<double>::max();
-  // Where p t + q <= 0 has to hold.
-  const auto keep_below = [&](const Lanes& p, const Lanes& q) {
-    const Lanes root = -q / p;
-    range.high = p > 0.0 ? smaller(range.high, root) : range.high;
-    range.low = p < 0.0 ? larger(range.low, root) : range.low;
-    range.high = (p == 0.0) & (q > 0.0) ? Lanes{} - kHuge : range.high;
-  };
-  for (std::size_t other = 0; other < lines.size(); ++other) {
-    if (other != m) keep_below(lines[m].p - lines[other].p, lines[m].q - lines[other].q);
-  }
-  keep_below(-lines[m].p, -lines[m].q);
-  return range;
-}
-
-/// (F25) of one coefficient set along one piece.
-class Stretch {
- public:
-  Stretch(const MomentSeries& series, const Coefficients& k)
-      : low_(std::sqrt(series.base)),
-        base_(series.base),
-        scale_(2.0 / (std::sqrt(series.base + 1.0) - low_)),
-        whole_(worths(series.whole, k)) {
-    terms_.reserve(series.terms.size());
-    for (const EdgeMoments& term : series.terms) terms_.push_back(worths(term, k));
-  }
-
-  struct Values {
-    std::array<Lanes, kWorths> of;
-  };
-
-  /// The worths of the stretch up to a part of the piece, 0 .. 1.
-  [[gnu::always_inline]] Values up_to(const Lanes& part) const {
-    Values values;
-    const auto within = (part > 0.0) & (part < 1.0);
-    if (any(within)) {
-      const Lanes t = scale_ * (square_root(base_ + part) - low_) - 1.0;
-      const Lanes twice = 2.0 * t;
-      std::array<Lanes, kWorths> one{}, two{};
-      for (std::size_t m = terms_.size() - 1; m > 0; --m) {
-        const Worths& term = terms_[m];
-#pragma GCC unroll 12
-        for (int k = 0; k < kWorths; ++k) {
-          const Lanes next = term[k] + (twice * one[k] - two[k]);
-          two[k] = one[k];
-          one[k] = next;
-        }
-      }
-#pragma GCC unroll 12
-      for (int k = 0; k < kWorths; ++k) {
-        const Lanes ends = part >= 1.0 ? Lanes{} + whole_[k] : Lanes{};
-        values.of[k] = within ? terms_[0][k] + (t * one[k] - two[k]) : ends;
-      }
-    } else {
-#pragma GCC unroll 12
-      for (int k = 0; k < kWorths; ++k) values.of[k] = part >= 1.0 ? Lanes{} + whole_[k] : Lanes{};
-    }
-    return values;
-  }
-
- private:
-  double low_;
-  double base_;
-  double scale_;
-  Worths whole_;
-  std::vector<Worths> terms_;
-};
-
-struct Force {
-  Lanes x{}, y{}, z{}, torque{};
-
-  /// Adds another where the mask says so.
-  template <class Mask>
-  [[gnu::always_inline]] void add(const Mask& mask, double sign, const Force& other) {
-    x += mask ? sign * other.x : Lanes{};
-    y += mask ? sign * other.y : Lanes{};
-    z += mask ? sign * other.z : Lanes{};
-    torque += mask ? sign * other.torque : Lanes{};
-  }
-};
-
-/// (F25): the force of a stretch whose upper point stands at b, under one line.
-[[gnu::always_inline]] inline Force force_of_stretch(const Stretch::Values& w,
-                                                     const SineAndCosine& b, const Line& line) {
-  const Lanes c = b.cosine, s = b.sine;
-  const Lanes c2 = c * c - s * s, s2 = 2.0 * s * c;
-  const Lanes hr = c2 * w.of[g2r] + s2 * w.of[g2i];
-  const Lanes hi = c2 * w.of[g2i] - s2 * w.of[g2r];
-  const auto along = [&](int cosine, int sine) {
-    return line.p * (c * w.of[cosine] + s * w.of[sine]) +
-           line.q * (s * w.of[cosine] - c * w.of[sine]);
-  };
-  return {-0.5 * (line.p * (w.of[g0r] + hr) + line.q * (w.of[g0i] - hi)) -
-              (c * w.of[er] + s * w.of[ei]),
-          -0.5 * (line.p * (w.of[g0i] + hi) + line.q * (hr - w.of[g0r])) -
-              (c * w.of[ei] - s * w.of[er]),
-          along(vc, vs) + w.of[ez], along(tc, ts) + w.of[et]};
-}
-
-/// A point of the piece where a stretch begins or ends.
-struct End {
-  Lanes part;         ///< of the piece below it, 0 .. 1
-  SineAndCosine phi;  ///< of its immersion angle
-  Stretch::Values worth;
-};
-
-/// The teeth before one tooth.
-struct Before {
-  double feed;             ///< since they passed [mm]
-  double one_less_cosine;  ///< of how far ahead of it they stand
-  double sine;
-};
+/// Which end of the stretch in cut is not that of the piece, but where a limit of the arc is.
+enum class Cut { none, lower, upper, both };
 
 }  // namespace
 
 RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece)
     : rows_(rows),
       hand_(hand(edges.flutes()[0].helix_tangent)),
-      shift_(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.bottom)),
+      lower_shift_(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.bottom)),
+      upper_shift_(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.top)),
       lag_(lag_over(edges.flutes()[0].helix_tangent,
                     edges.envelope().lag(piece.top) - edges.envelope().lag(piece.bottom))),
       per_lag_(1.0 / std::max(lag_, 1e-300)),
       series_(moment_series(edges, rows, 0, piece)) {}
 
-/// One pass of one tooth over one piece: eight spindle angles at a time.
-struct RunoutEdge::Sweep {
-  const RunoutEdge& edge;
-  const Stretch& stretch;
-  const Arc& arc;
-
-  Lanes angle_of(const Lanes& part, const Lanes& lower) const {
-    return lower - edge.hand_ * edge.lag_ * part;
+/// One tooth over one piece within one arc: eight spindle angles at a time.
+class RunoutEdge::Sweep {
+ public:
+  Sweep(const RunoutEdge& edge, const RunoutStretch& stretch, const TeethBefore& before,
+        const Arc& arc)
+      : edge_(edge),
+        stretch_(stretch),
+        before_(before),
+        entry_(arc.entry_angle),
+        exit_(arc.exit_angle),
+        closed_(edge.hand_ > 0.0 ? Closed::above : Closed::below) {
+    const double lower = edge_.lower_shift_.value, upper = lower + edge_.hand_ * edge_.lag_;
+    first_ = entry_.value + std::min(lower, upper);
+    entered_ = entry_.value + std::max(lower, upper);
+    leaving_ = exit_.value + std::min(lower, upper);
+    last_ = exit_.value + std::max(lower, upper);
+    if (entered_ < leaving_) find_spans();
   }
 
-  /// Which part of the piece is below the point at an immersion angle, if its lower end is at
-  /// `lower`.
-  [[gnu::always_inline]] Lanes part_below(const Lanes& phi, const Lanes& lower) const {
-    const Lanes past = edge.hand_ * (lower - phi);
+  void add_to(SamplingRun& run) const {
+    run.for_each_pass(first_, last_, [&](const Pass& pass) {
+      const double full = std::min(entered_, leaving_), less = std::max(entered_, leaving_);
+      if (edge_.hand_ > 0.0) {
+        add<Cut::upper>(run, pass, first_, full);
+        add<Cut::lower>(run, pass, less, last_);
+      } else {
+        add<Cut::lower>(run, pass, first_, full);
+        add<Cut::upper>(run, pass, less, last_);
+      }
+      if (spans_.empty()) add<Cut::both>(run, pass, full, less);
+      for (const Span& span : spans_) {
+        if (span.line == kSeveral) {
+          add<Cut::none>(run, pass, span.from, span.to);
+        } else if (span.line != kNone) {
+          add_under(run, pass, span);
+        }
+      }
+    });
+  }
+
+ private:
+  static constexpr int kSeveral = -1;
+  static constexpr int kNone = -2;
+
+  /// Angles of the tip between which the whole piece is in cut and one line is the smallest at both
+  /// of its ends, and so between them: lines are linear in the cotangent of the immersion angle.
+  struct Span {
+    double from;
+    double to;
+    int line;  ///< or kSeveral, or kNone
+  };
+
+  void find_spans() {
+    const TeethBefore::AtPoint lower(before_, edge_.lower_shift_.value);
+    const TeethBefore::AtPoint upper(before_, edge_.upper_shift_.value);
+    std::vector<double> bounds = {entered_, leaving_};
+    const auto add_bounds = [&](const TeethBefore::AtPoint& point, double shift) {
+      point.for_each_change([&](double sin_phi) {
+        const double phi = std::asin(sin_phi);
+        for (const double tip : {phi + shift, core::kPi - phi + shift}) {
+          if (tip > entered_ && tip < leaving_) bounds.push_back(tip);
+        }
+      });
+    };
+    add_bounds(lower, edge_.lower_shift_.value);
+    add_bounds(upper, edge_.upper_shift_.value);
+    std::sort(bounds.begin(), bounds.end());
+    for (std::size_t i = 1; i < bounds.size(); ++i) {
+      const double middle = 0.5 * (bounds[i - 1] + bounds[i]);
+      const int line = line_at(lower.smallest_at(std::sin(middle - edge_.lower_shift_.value)),
+                               upper.smallest_at(std::sin(middle - edge_.upper_shift_.value)));
+      if (!spans_.empty() && spans_.back().line == line) {
+        spans_.back().to = bounds[i];
+      } else {
+        spans_.push_back({bounds[i - 1], bounds[i], line});
+      }
+    }
+  }
+
+  static int line_at(const TeethBefore::AtPoint::Chip& lower,
+                     const TeethBefore::AtPoint::Chip& upper) {
+    if (lower.which != upper.which || (lower.value < 0.0) != (upper.value < 0.0)) return kSeveral;
+    return lower.value < 0.0 ? kNone : lower.which;
+  }
+
+  void add_under(SamplingRun& run, const Pass& pass, const Span& span) const {
+    const AngleTables& tables = run.tables();
+    const IndexRange indices = run.between(pass, span.from, span.to, closed_);
+    run.accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
+      const ForceLanes force =
+          stretch_.whole(at_end(pass, edge_.upper_shift_, c1, s1), before_.find(span.line, c1, s1));
+      x = force.x, y = force.y, z = force.z, torque = force.torque;
+    });
+  }
+
+  template <Cut cut>
+  void add(SamplingRun& run, const Pass& pass, double from, double to) const {
+    const IndexRange indices = run.between(pass, from, to, closed_);
+    if (indices.first >= indices.last) return;
+    const AngleTables& tables = run.tables();
+    const double start = pass.offset - edge_.lower_shift_.value;
+    std::array<Line, kMostFlutes> lines;
+    run.accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
+      before_.find(c1, s1, lines.data());
+      const Place place = {start + tables.step * (static_cast<double>(n) + kLaneIndex),
+                           at_end(pass, edge_.lower_shift_, c1, s1),
+                           at_end(pass, edge_.upper_shift_, c1, s1)};
+      const ForceLanes force = force_at<cut>(lines.data(), place);
+      x = force.x, y = force.y, z = force.z, torque = force.torque;
+    });
+  }
+
+  /// Where the piece stands.
+  struct Place {
+    Lanes lower_angle;  ///< immersion angle of its lower end
+    SineAndCosine lower;
+    SineAndCosine upper;
+  };
+
+  [[gnu::always_inline]] static SineAndCosine at_end(const Pass& pass, const Angle& shift,
+                                                     const Lanes& c1, const Lanes& s1) {
+    const double c = pass.cosine * shift.cosine + pass.sine * shift.sine;
+    const double s = pass.sine * shift.cosine - pass.cosine * shift.sine;
+    return {c1 * s + s1 * c, c1 * c - s1 * s};
+  }
+
+  /// Which part of the piece is below the point at an immersion angle.
+  [[gnu::always_inline]] Lanes part_below(const Lanes& phi, const Place& place) const {
+    const Lanes past = edge_.hand_ * (place.lower_angle - phi);
     const Lanes size = past < 0.0 ? -past : past;
-    const Lanes part = (size < kAngleSnap ? Lanes{} : past) * edge.per_lag_;
+    const Lanes part = (size < kAngleSnap ? Lanes{} : past) * edge_.per_lag_;
     return part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
   }
 
-  [[gnu::always_inline]] End end_at(const Lanes& part, const Lanes& lower) const {
-    return {part, sine_and_cosine(angle_of(part, lower)), stretch.up_to(part)};
+  [[gnu::always_inline]] ForceLanes up_to(const Angle& limit, const Place& place,
+                                          const Line& line) const {
+    return stretch_.up_to(part_below(Lanes{} + limit.value, place), lanes_of(limit), line);
+  }
+
+  [[gnu::always_inline]] static SineAndCosine lanes_of(const Angle& angle) {
+    return {Lanes{} + angle.sine, Lanes{} + angle.cosine};
   }
 
   /// The force under whichever line is the smallest, where it is positive. Mostly one line is it
   /// all over the piece; only where the edge crosses from one to another are the crossings
   /// computed.
-  [[gnu::always_inline]] Force force(const std::vector<Line>& lines, const Lanes& lower) const {
-    const bool right = edge.hand_ > 0.0;
-    const Lanes entry = part_below(arc.entry_angle + Lanes{}, lower);
-    const Lanes exit = part_below(arc.exit_angle + Lanes{}, lower);
-    const End top = end_at(right ? entry : exit, lower);
-    End bottom = {right ? exit : entry, {}, {}};
-    bottom.phi = sine_and_cosine(angle_of(bottom.part, lower));
-    const bool above_the_lower_end = any(bottom.part > 0.0);
-    if (above_the_lower_end) bottom.worth = stretch.up_to(bottom.part);
-    const auto engaged = bottom.part < top.part;
-    Line line = lines[0];
-    Lanes at_top = line.at(top.phi), at_bottom = line.at(bottom.phi);
-    Lanes which_top{}, which_bottom{};
-    for (std::size_t m = 1; m < lines.size(); ++m) {
-      const Lanes here = lines[m].at(top.phi), there = lines[m].at(bottom.phi);
-      const auto less = here < at_top;
-      line = {less ? lines[m].p : line.p, less ? lines[m].q : line.q};
-      which_top = less ? Lanes{} + static_cast<double>(m) : which_top;
-      at_top = less ? here : at_top;
-      which_bottom = there < at_bottom ? Lanes{} + static_cast<double>(m) : which_bottom;
-      at_bottom = there < at_bottom ? there : at_bottom;
-    }
-    const auto one = engaged & (which_top == which_bottom) & (at_top >= 0.0) & (at_bottom >= 0.0);
-    Force sum;
-    sum.add(one, 1.0, force_of_stretch(top.worth, top.phi, line));
-    if (above_the_lower_end) {
-      sum.add(one, -1.0, force_of_stretch(bottom.worth, bottom.phi, line));
-    }
-    const auto crossing = engaged & ~one;
-    if (any(crossing)) add_crossing(sum, lines, lower, top, bottom, crossing);
-    return sum;
+  template <Cut cut>
+  [[gnu::always_inline]] ForceLanes force_at(const Line* lines, const Place& place) const {
+    constexpr bool cut_below = cut == Cut::lower || cut == Cut::both;
+    constexpr bool cut_above = cut == Cut::upper || cut == Cut::both;
+    const bool right = edge_.hand_ > 0.0;
+    const Angle& upper_limit = right ? entry_ : exit_;
+    const Angle& lower_limit = right ? exit_ : entry_;
+    const SineAndCosine bottom = cut_below ? lanes_of(lower_limit) : place.lower;
+    const SineAndCosine top = cut_above ? lanes_of(upper_limit) : place.upper;
+    const Smallest below = smallest_at(bottom, lines, before_.count());
+    const Smallest above = smallest_at(top, lines, before_.count());
+    ForceLanes force;
+    Line line = below.line;
+    if (cut_below) force -= up_to(lower_limit, place, line);
+    // A smallest line that is negative at both ends is so between them; of two one cannot know.
+    const auto crosses =
+        (below.which != above.which) | ((below.value >= 0.0) != (above.value >= 0.0));
+    if (any(crosses)) add_crossings(force, line, above.line, lines, place, bottom, top, crosses);
+    force += cut_above ? up_to(upper_limit, place, line) : stretch_.whole(top, line);
+    return force;
   }
 
+  /// Walks up the edge from line to line: adds, where one gives way to the next, the stretch up to
+  /// there under their difference. `line` is that at the lower end, and then that at the upper,
+  /// which should be `last`.
   template <class Mask>
-  [[gnu::noinline]] void add_crossing(Force& sum, const std::vector<Line>& lines,
-                                      const Lanes& lower, const End& top, const End& bottom,
-                                      const Mask& crossing) const {
-    // At 0 and pi the sine may come out below zero by rounding, which would turn the sign.
-    const Lanes smallest = Lanes{} + 1e-300;
-    const Lanes t_top = top.phi.cosine / larger(top.phi.sine, smallest);
-    const Lanes t_bottom = bottom.phi.cosine / larger(bottom.phi.sine, smallest);
-    const Range all = {smaller(t_top, t_bottom), larger(t_top, t_bottom)};
-    const bool right = edge.hand_ > 0.0;
-    for (std::size_t m = 0; m < lines.size(); ++m) {
-      const Range range = range_of(lines, m, all);
-      const auto within = crossing & (range.low < range.high);
-      if (!any(within)) continue;
-      const auto add = [&](const End& end, const Lanes& bound, const Lanes& end_bound,
-                           double sign) {
-        const auto inside = within & (bound != end_bound);
-        if (any(inside)) {
-          const Lanes part = part_below(arc_cotangent(bound), lower);
-          const End crossed = end_at(inside ? part : end.part, lower);
-          sum.add(within, sign, force_of_stretch(crossed.worth, crossed.phi, lines[m]));
-        } else if (any(end.part > 0.0)) {
-          sum.add(within, sign, force_of_stretch(end.worth, end.phi, lines[m]));
-        }
-      };
-      // Up the edge of a right-hand cutter immersion angles fall, and their cotangents grow.
-      add(top, right ? range.high : range.low, right ? all.high : all.low, 1.0);
-      add(bottom, right ? range.low : range.high, right ? all.low : all.high, -1.0);
+  [[gnu::noinline]] void add_crossings(ForceLanes& force, Line& line, const Line& last,
+                                       const Line* lines, const Place& place,
+                                       const SineAndCosine& bottom, const SineAndCosine& top,
+                                       const Mask& crosses) const {
+    // Over sin(phi) lines are linear in the cotangent, which goes up with the edge of a right-hand
+    // cutter. At 0 and pi the sine may come out below zero by rounding: that would turn the sign.
+    const double hand = edge_.hand_;
+    const Lanes t_top = hand * top.cosine / larger(top.sine, Lanes{} + 1e-300);
+    const Lanes t_bottom = hand * bottom.cosine / larger(bottom.sine, Lanes{} + 1e-300);
+    const auto change = [&](const auto& where, const Lanes& t, const Line& next) {
+      const AngleLanes at = arc_cotangent(hand * t);
+      const Line difference = select(where, line - next, Line{});
+      force += stretch_.up_to_zero(part_below(at.angle, place), at.of, difference);
+      line = select(where, next, line);
+    };
+    // The chip begins where the last of the rising lines becomes positive, unless one of the others
+    // is negative by then, or was at the lower end.
+    const auto starts_without = crosses & (line.edge == 0.0);
+    if (any(starts_without)) {
+      Lanes begin = Lanes{} - kHuge, end = t_top;
+      Line first{};
+      for (int m = 0; m < before_.count(); ++m) {
+        const Lanes p = hand * lines[m].p;
+        const Lanes root = -lines[m].q / p;
+        const auto later = (p > 0.0) & (root > begin);
+        begin = later ? root : begin;
+        first = select(later, lines[m], first);
+        end = (p < 0.0) & (root < end) ? root : end;
+        end = (p == 0.0) & (lines[m].q < 0.0) ? Lanes{} - kHuge : end;
+      }
+      const auto where = starts_without & (begin < end) & (end > t_bottom);
+      if (any(where)) change(where, begin, first);
+    }
+    // Slopes fall from line to line, so that no more than all can follow.
+    for (int step = 0; step <= before_.count(); ++step) {
+      const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
+      if (!any(walks)) return;
+      const Lanes p = hand * line.p;
+      Lanes end = p < 0.0 ? -line.q / p : Lanes{} + kHuge;  // the chip ends
+      Line next{};
+      for (int m = 0; m < before_.count(); ++m) {
+        const Lanes fall = p - hand * lines[m].p;
+        const Lanes root = (lines[m].q - line.q) / fall;
+        const auto sooner = (fall > 0.0) & (root < end);
+        end = sooner ? root : end;
+        next = select(sooner, lines[m], next);
+      }
+      const auto where = walks & (line.edge > 0.0) & (end < t_top);
+      if (!any(where)) return;
+      change(where, end, next);
     }
   }
+
+  const RunoutEdge& edge_;
+  const RunoutStretch& stretch_;
+  const TeethBefore& before_;
+  Angle entry_;
+  Angle exit_;
+  Closed closed_;
+  // Angles of the tip at which the ends of the piece pass the limits.
+  double first_;
+  double entered_;
+  double leaving_;
+  double last_;
+  std::vector<Span> spans_;  ///< from entered_ to leaving_
 };
 
-void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int flute,
-                        const Coefficients& k, const Feed& feed, const Arc& arc) const {
-  const Stretch stretch(series_, k);
-  const Sweep sweep{*this, stretch, arc};
-  const auto count = static_cast<int>(edges.flutes().size());
-  const cutter::Runout& runout = edges.cutter().runout;
-  const Angle direction(std::remainder(feed.direction, 2.0 * core::kPi));
-  const Angle zero(direction.value + runout.angle);
-  std::vector<Reach> reaches(count);
-  ChipLaw(edges).find(flute, 0.0, 0.0, reaches);
-  std::vector<Before> before(count);
-  for (int m = 0; m < count; ++m) {
-    const double ahead = reaches[m].ratio * 2.0 * core::kPi / count;
-    before[m] = {feed.per_tooth * reaches[m].ratio, 1.0 - std::cos(ahead), std::sin(ahead)};
+void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,
+                        const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const {
+  const Angle turn(std::remainder(feed.direction, 2.0 * core::kPi) +
+                   (rows_ == Rows::moments ? 0.5 * core::kPi : 0.0));
+  const RunoutStretch stretch(series_, k, turn.cosine, turn.sine);
+  for (int flute = first; flute <= last; ++flute) {
+    const TeethBefore before(edges, flute, feed);
+    run.begin_tooth(Angle(edges.flutes()[flute].position));
+    for (const Arc& arc : arcs) Sweep(*this, stretch, before, arc).add_to(run);
   }
-  before.back().one_less_cosine = before.back().sine = 0.0;  // itself, a turn ago
-  std::vector<Line> lines(count);
-  const Closed closed = hand_ > 0.0 ? Closed::above : Closed::below;
-  const double from = arc.entry_angle + shift_ - (hand_ > 0.0 ? 0.0 : lag_);
-  const double to = arc.exit_angle + shift_ + (hand_ > 0.0 ? lag_ : 0.0);
-  const AngleTables& tables = run.tables();
-  run.begin_tooth(Angle(edges.flutes()[flute].position));
-  run.for_each_pass(from, to, [&](const Pass& pass) {
-    const double start = pass.offset - shift_;
-    run.accumulate(run.between(pass, from, to, closed), [&](int n, Lanes& x, Lanes& y, Lanes& z,
-                                                            Lanes& torque) {
-      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
-      const Lanes cos_a = runout.offset * (c1 * zero.cosine - s1 * zero.sine);
-      const Lanes sin_a = runout.offset * (s1 * zero.cosine + c1 * zero.sine);
-      for (int m = 0; m < count; ++m) {
-        lines[m] = {cos_a * before[m].one_less_cosine - sin_a * before[m].sine,
-                    before[m].feed + sin_a * before[m].one_less_cosine + cos_a * before[m].sine};
-      }
-      Force force = sweep.force(lines, start + tables.step * (static_cast<double>(n) + kLaneIndex));
-      if (rows_ == Rows::moments) {
-        const Lanes turned = -force.y;
-        force.y = force.x;
-        force.x = turned;
-      }
-      x = force.x * direction.cosine - force.y * direction.sine;
-      y = force.x * direction.sine + force.y * direction.cosine;
-      z = force.z;
-      torque = force.torque;
-    });
-  });
 }
 
 }  // namespace millstudy::force

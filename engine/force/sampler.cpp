@@ -125,13 +125,11 @@ struct ForceSampler::Geometry {
     return !cutter::has_runout(edges->cutter()) && (power || !law.with_chip());
   }
 
-  /// Runout with all that makes its chips linear in cot(phi), (F23); beyond so many flutes their
-  /// pairs would take longer than the integral.
+  /// Runout with all that makes its chips linear in cot(phi), (F23).
   bool takes_runout_edges(const EdgeRule& edge_rule) const {
-    constexpr int kMostFlutes = 16;
     return cutter::has_runout(edges->cutter()) && edges->cutter().runout.tilt == 0.0 &&
            !edges->variable_helix() && !edges->variation().with_chip() &&
-           edge_rule.rule == Rule::exact && edges->cutter().flutes <= kMostFlutes;
+           edge_rule.rule == Rule::exact && edges->cutter().flutes <= RunoutEdge::kMostFlutes;
   }
 
   int angular_steps;
@@ -272,13 +270,10 @@ void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coeff
                           const Feed& feed) const {
   const Geometry& g = *geometry_;
   if (!g.runout.empty()) {
-    const int last = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
-    for (int j = flute == kAllFlutes ? 0 : flute; j <= last; ++j) {
-      for (const Arc& arc : engaged_->arcs) {
-        for (const RunoutEdge& edge : g.runout) {
-          edge.add_to(run, *g.edges, j, coefficients, feed, arc);
-        }
-      }
+    const int from = flute == kAllFlutes ? 0 : flute;
+    const int to = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
+    for (const RunoutEdge& edge : g.runout) {
+      edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
     }
     return;
   }

@@ -123,51 +123,35 @@ void SamplingRun::add_taylor(const Pass& pass, IndexRange indices, const Taylor&
 }
 
 template <class Variable>
-[[gnu::always_inline]] inline void SamplingRun::add_series(const Pass& pass, IndexRange indices,
-                                                           const std::vector<double>& terms,
-                                                           double sign, double origin,
-                                                           double length,
-                                                           const Variable& variable) {
+[[gnu::always_inline]] inline void SamplingRun::add_series_in(const Pass& pass, IndexRange indices,
+                                                              const std::vector<double>& terms,
+                                                              Terms kind, double sign,
+                                                              double origin, double length,
+                                                              const Variable& variable) {
   const double from = pass.offset - origin;
   accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
     const Lanes d = sign * (from + tables_.step * (static_cast<double>(n) + kLaneIndex));
     const Lanes part = d / length;
     const Lanes t = variable(part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{});
-    const Lanes twice = 2.0 * t;
-    // Clenshaw's recurrence, four series abreast.
-    Lanes x1{}, y1{}, z1{}, torque1{};
-    Lanes x2{}, y2{}, z2{}, torque2{};
-    for (const double* term = &terms[terms.size() - kRows]; term > &terms[0]; term -= kRows) {
-      const Lanes x0 = term[0] + (twice * x1 - x2);
-      const Lanes y0 = term[1] + (twice * y1 - y2);
-      const Lanes z0 = term[2] + (twice * z1 - z2);
-      const Lanes torque0 = term[3] + (twice * torque1 - torque2);
-      x2 = x1, y2 = y1, z2 = z1, torque2 = torque1;
-      x1 = x0, y1 = y0, z1 = z0, torque1 = torque0;
-    }
-    x = terms[0] + (t * x1 - x2);
-    y = terms[1] + (t * y1 - y2);
-    z = terms[2] + (t * z1 - z2);
-    torque = terms[3] + (t * torque1 - torque2);
+    const std::array<Lanes, kRows> sum =
+        sum_series<kRows, kRows>(kind, terms.data(), terms.size() / kRows, t);
+    x = sum[0], y = sum[1], z = sum[2], torque = sum[3];
   });
 }
 
-void SamplingRun::add_chebyshev(const Pass& pass, IndexRange indices,
-                                const std::vector<double>& terms, double sign, double origin,
-                                double length, double base) {
-  const double low = std::sqrt(base);
-  const double scale = 2.0 / (std::sqrt(base + 1.0) - low);
-  add_series(pass, indices, terms, sign, origin, length, [&](const Lanes& part) -> Lanes {
-    return scale * (square_root(base + part) - low) - 1.0;
-  });
+void SamplingRun::add_series(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
+                             Terms kind, double sign, double origin, double length,
+                             const SeriesVariable& variable) {
+  add_series_in(pass, indices, terms, kind, sign, origin, length,
+                [&](const Lanes& part) { return variable.at(part); });
 }
 
 void SamplingRun::add_quartic_chebyshev(const Pass& pass, IndexRange indices,
                                         const std::vector<double>& terms, double sign,
                                         double origin, double length) {
-  add_series(pass, indices, terms, sign, origin, length, [&](const Lanes& part) -> Lanes {
-    return 2.0 * square_root(square_root(part)) - 1.0;
-  });
+  add_series_in(
+      pass, indices, terms, Terms::chebyshev, sign, origin, length,
+      [&](const Lanes& part) -> Lanes { return 2.0 * square_root(square_root(part)) - 1.0; });
 }
 
 }  // namespace millstudy::force

@@ -8,6 +8,7 @@
 
 #include "force/harmonics.h"
 #include "force/lanes.h"
+#include "force/series.h"
 
 namespace millstudy::force {
 
@@ -115,19 +116,21 @@ class SamplingRun {
   void add_taylor(const Pass& pass, IndexRange indices, const Taylor& terms, double sign,
                   double origin);
 
-  /// Adds sum_m terms[4 m + row] T_m(t), t going from -1 to 1 with sqrt(base + d / length), where
+  /// Adds the series of terms[4 m + row], t the variable of the part d / length, where
   /// d = sign (tip angle - origin) goes from 0 to length.
-  void add_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
-                     double sign, double origin, double length, double base);
+  void add_series(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
+                  Terms kind, double sign, double origin, double length,
+                  const SeriesVariable& variable);
 
-  /// The same, t going from -1 to 1 with the fourth root of d / length.
+  /// The same of Chebyshev series, t going from -1 to 1 with the fourth root of d / length.
   void add_quartic_chebyshev(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
                              double sign, double origin, double length);
 
  private:
   template <class Variable>
-  void add_series(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
-                  double sign, double origin, double length, const Variable& variable);
+  void add_series_in(const Pass& pass, IndexRange indices, const std::vector<double>& terms,
+                     Terms kind, double sign, double origin, double length,
+                     const Variable& variable);
   Pass pass(std::int64_t q) const;
   void put_zeros(IndexRange indices);
 

@@ -58,8 +58,10 @@ void SeriesEdge::add_to(SamplingRun& run, const Combination& with, const AtArc& 
     const auto around = [&](double limit) {
       return run.between(pass, limit + before, limit + past, closed);
     };
-    run.add_chebyshev(pass, around(entry_angle), entry, hand_, entry_angle, lag_, series_.base);
-    run.add_chebyshev(pass, around(exit_angle), exit, hand_, exit_angle, lag_, series_.base);
+    run.add_series(pass, around(entry_angle), entry, series_.kind, hand_, entry_angle, lag_,
+                   series_.variable);
+    run.add_series(pass, around(exit_angle), exit, series_.kind, hand_, exit_angle, lag_,
+                   series_.variable);
     const double from = hand_ > 0.0 ? entry_angle + lag_ : entry_angle - lag_;
     const double to = hand_ > 0.0 ? exit_angle + lag_ : exit_angle - lag_;
     run.add(pass, run.between(pass, from, to, closed), whole);

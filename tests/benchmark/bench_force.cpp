@@ -10,12 +10,11 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdio>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "benchmark/force_disc_baseline.h"
+#include "benchmark/median_reporter.h"
 #include "core/units.h"
 #include "force/sampler.h"
 #include "force/statistics.h"
@@ -104,48 +103,23 @@ bool baseline_agrees(double depth) {
   return off < 1e-2 * peak;
 }
 
-/// Prints the table as ever and keeps the medians.
-class MedianReporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.aggregate_name != "median") continue;
-      Median& median = medians[run.run_name.function_name];
-      median.ns = run.GetAdjustedCPUTime();
-      const auto rate = run.counters.find("discs/s");
-      if (rate != run.counters.end()) median.discs_per_s = rate->second.value;
-    }
-  }
-  struct Median {
-    double ns = 0.0;
-    double discs_per_s = 0.0;
-  };
-  std::map<std::string, Median> medians;
-};
-
-void print_ratio(const MedianReporter& reporter, const std::string& depth) {
-  const auto& medians = reporter.medians;
-  const auto base = medians.find("discs_200/" + depth);
-  const auto fast = medians.find("sampler_flat/" + depth);
-  const auto first = medians.find("cold_start_flat/" + depth);
-  if (base == medians.end() || fast == medians.end() || first == medians.end()) return;
+void print_ratio(const baseline::MedianReporter& reporter, const std::string& depth) {
+  const auto* base = reporter.find("discs_200/" + depth);
+  const auto* fast = reporter.find("sampler_flat/" + depth);
+  const auto* first = reporter.find("cold_start_flat/" + depth);
+  if (!base || !fast || !first) return;
   std::printf(
       "flat, %s deep: exact %.3f us, %.0fx faster than 200 discs a tooth (%.1f us, %.2e discs/s)"
       "; cold start %.1f us, %.1fx\n",
-      depth.c_str(), 1e-3 * fast->second.ns, base->second.ns / fast->second.ns,
-      1e-3 * base->second.ns, base->second.discs_per_s, 1e-3 * first->second.ns,
-      base->second.ns / first->second.ns);
-}
-
-void add(const std::string& name, const std::function<void(benchmark::State&)>& function) {
-  benchmark::RegisterBenchmark(name.c_str(), function)->Repetitions(9)->ReportAggregatesOnly();
+      depth.c_str(), 1e-3 * fast->ns, base->ns / fast->ns, 1e-3 * base->ns, base->discs_per_s,
+      1e-3 * first->ns, base->ns / first->ns);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
+  using baseline::add;
   using cutter::Shape;
   for (const double depth : {0.5, 20.0}) {
     const std::string at = depth < 1.0 ? "0.5mm" : "20mm";
@@ -160,7 +134,7 @@ int main(int argc, char** argv) {
   });
   add("path_period_flat/0.5mm", [](auto& state) { period(state, Shape::flat, 0.5); });
   add("path_period_ball/3mm", [](auto& state) { period(state, Shape::ball, 3.0); });
-  MedianReporter reporter;
+  baseline::MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   print_ratio(reporter, "0.5mm");
   print_ratio(reporter, "20mm");

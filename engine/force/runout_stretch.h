@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "force/coefficients.h"
+#include "force/edge_moments.h"
+#include "force/lanes_math.h"
+
+/// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
+namespace millstudy::force {
+
+/// Over sin(kappa), the chip of one reach is P cos(phi) + Q sin(phi), (F23), and edge forces act
+/// where it is positive. All zero: no chip.
+struct Line {
+  Lanes p{};
+  Lanes q{};
+  Lanes edge{};  ///< 1 or 0
+
+  Lanes at(const SineAndCosine& phi) const { return p * phi.cosine + q * phi.sine; }
+};
+
+inline Line operator-(const Line& a, const Line& b) {
+  return {a.p - b.p, a.q - b.q, a.edge - b.edge};
+}
+
+template <class Mask>
+[[gnu::always_inline]] inline Line select(const Mask& mask, const Line& a, const Line& b) {
+  return {mask ? a.p : b.p, mask ? a.q : b.q, mask ? a.edge : b.edge};
+}
+
+struct ForceLanes {
+  Lanes x{}, y{}, z{}, torque{};
+
+  ForceLanes& operator+=(const ForceLanes& other) {
+    x += other.x, y += other.y, z += other.z, torque += other.torque;
+    return *this;
+  }
+  ForceLanes& operator-=(const ForceLanes& other) {
+    x -= other.x, y -= other.y, z -= other.z, torque -= other.torque;
+    return *this;
+  }
+};
+
+/// What the moments of a stretch are worth under the coefficients: the numbers that (F25) needs.
+enum Worth {
+  g0r,  ///< planar chip force, constant part, as a complex number
+  g0i,
+  g2r,  ///< planar chip force, second harmonic
+  g2i,
+  vc,  ///< axial chip force
+  vs,
+  tc,  ///< torque of the chip
+  ts,
+  er,  ///< planar edge force
+  ei,
+  ez,  ///< axial edge force
+  et,  ///< torque of the edge
+  kWorths
+};
+
+/// (F25) of one coefficient set along one piece, in axes turned by an angle.
+class RunoutStretch {
+ public:
+  template <class Value>
+  using Worths = std::array<Value, kWorths>;
+  static constexpr int kZeroWorths = 8;
+
+  /// @param cosine, sine  of the angle from feed axes to those of the rows
+  RunoutStretch(const MomentSeries& series, const Coefficients& k, double cosine, double sine)
+      : variable_(series.variable),
+        kind_(series.kind),
+        whole_(worths(series.whole, k, cosine, sine)) {
+    terms_.reserve(series.terms.size());
+    zero_terms_.reserve(series.terms.size());
+    for (const EdgeMoments& term : series.terms) {
+      const Worths<double> w = worths(term, k, cosine, sine);
+      terms_.push_back(w);
+      zero_terms_.push_back({0.5 * (w[g0i] - w[g2i]), -0.5 * (w[g0r] - w[g2r]), w[vs], w[ts], w[er],
+                             w[ei], w[ez], w[et]});
+    }
+  }
+
+  /// All of the piece, its upper end at an immersion angle.
+  [[gnu::always_inline]] ForceLanes whole(const SineAndCosine& upper, const Line& line) const {
+    return force(whole_, upper, line);
+  }
+
+  /// The piece from its lower end up to a part of it, 0 .. 1, where the immersion angle is `upper`.
+  [[gnu::always_inline]] ForceLanes up_to(const Lanes& part, const SineAndCosine& upper,
+                                          const Line& line) const {
+    return force(sum_series<kWorths, kWorths>(kind_, terms_.front().data(), terms_.size(),
+                                              variable_.at(part)),
+                 upper, line);
+  }
+
+  /// The same where the line is zero at the upper point, and so r sin(delta), delta from there
+  /// down: the force is then r exp(-i b) times functions of the part alone.
+  [[gnu::always_inline]] ForceLanes up_to_zero(const Lanes& part, const SineAndCosine& upper,
+                                               const Line& line) const {
+    const std::array<Lanes, kZeroWorths> w = sum_series<kZeroWorths, kZeroWorths>(
+        kind_, zero_terms_.front().data(), zero_terms_.size(), variable_.at(part));
+    const Lanes c = upper.cosine, s = upper.sine;
+    const Lanes r = line.p * s - line.q * c;
+    const Lanes real = r * w[0] - line.edge * w[4];
+    const Lanes imaginary = r * w[1] - line.edge * w[5];
+    return {c * real + s * imaginary, c * imaginary - s * real, r * w[2] + line.edge * w[6],
+            r * w[3] + line.edge * w[7]};
+  }
+
+ private:
+  template <class Value>
+  [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
+                                                 const Line& line) {
+    const Lanes c = b.cosine, s = b.sine;
+    const Lanes c2 = c * c - s * s, s2 = 2.0 * s * c;
+    const Lanes hr = c2 * w[g2r] + s2 * w[g2i];
+    const Lanes hi = c2 * w[g2i] - s2 * w[g2r];
+    const auto along = [&](int cosine, int sine) -> Lanes {
+      return line.p * (c * w[cosine] + s * w[sine]) + line.q * (s * w[cosine] - c * w[sine]);
+    };
+    return {-0.5 * (line.p * (w[g0r] + hr) + line.q * (w[g0i] - hi)) -
+                line.edge * (c * w[er] + s * w[ei]),
+            -0.5 * (line.p * (w[g0i] + hi) + line.q * (hr - w[g0r])) -
+                line.edge * (c * w[ei] - s * w[er]),
+            along(vc, vs) + line.edge * w[ez], along(tc, ts) + line.edge * w[et]};
+  }
+
+  static Worths<double> worths(const EdgeMoments& m, const Coefficients& k, double cosine,
+                               double sine) {
+    Worths<double> w;
+    w[g0r] = k.Ktc * m.chip(0, 0);
+    w[g0i] = k.Krc * m.chip(1, 0) + k.Kac * m.chip(2, 0);
+    w[g2r] = k.Ktc * m.chip(0, 1) - (k.Krc * m.chip(1, 2) + k.Kac * m.chip(2, 2));
+    w[g2i] = k.Ktc * m.chip(0, 2) + (k.Krc * m.chip(1, 1) + k.Kac * m.chip(2, 1));
+    w[vc] = k.Krc * m.chip(1, 3) + k.Kac * m.chip(2, 3);
+    w[vs] = k.Krc * m.chip(1, 4) + k.Kac * m.chip(2, 4);
+    w[tc] = k.Ktc * m.chip(0, 3);
+    w[ts] = k.Ktc * m.chip(0, 4);
+    w[er] = k.Kte * m.edge(0, 0) - (k.Kre * m.edge(1, 1) + k.Kae * m.edge(2, 1));
+    w[ei] = k.Kte * m.edge(0, 1) + (k.Kre * m.edge(1, 0) + k.Kae * m.edge(2, 0));
+    w[ez] = k.Kre * m.edge(1, 2) + k.Kae * m.edge(2, 2);
+    w[et] = k.Kte * m.edge(0, 2);
+    for (const int real : {g0r, g2r, er}) {
+      const double turned = w[real] * cosine - w[real + 1] * sine;
+      w[real + 1] = w[real] * sine + w[real + 1] * cosine;
+      w[real] = turned;
+    }
+    return w;
+  }
+
+  SeriesVariable variable_;
+  Terms kind_;
+  Worths<double> whole_;
+  std::vector<Worths<double>> terms_;
+  std::vector<std::array<double, kZeroWorths>> zero_terms_;
+};
+
+}  // namespace millstudy::force

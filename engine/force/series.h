@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "force/lanes.h"
+
+/// Series of functions of a part, 0 .. 1, of something.
+namespace millstudy::force {
+
+/// The variable t, -1 .. 1, in which a function of a part is a series: in proportion to
+/// sqrt(base + part), or to the part itself for a function that has no root.
+class SeriesVariable {
+ public:
+  static SeriesVariable of_root(double base) { return SeriesVariable(base); }
+  static SeriesVariable linear() { return SeriesVariable(std::numeric_limits<double>::infinity()); }
+
+  double part_at(double t) const {
+    if (is_linear()) return 0.5 + 0.5 * t;
+    const double root = low_ + (0.5 + 0.5 * t) * (high_ - low_);
+    return root * root - base_;
+  }
+
+  [[gnu::always_inline]] Lanes at(const Lanes& part) const {
+    if (is_linear()) return 2.0 * part - 1.0;
+    return scale_ * (square_root(base_ + part) - low_) - 1.0;
+  }
+
+ private:
+  explicit SeriesVariable(double base)
+      : base_(base),
+        low_(std::sqrt(base)),
+        high_(std::sqrt(base + 1.0)),
+        scale_(2.0 / (high_ - low_)) {}
+
+  bool is_linear() const { return std::isinf(base_); }
+
+  double base_;
+  double low_;    // of the root, at part 0
+  double high_;   // at part 1
+  double scale_;  // of t over the root
+};
+
+/// What the terms of a series are factors of. Powers take half the time, and lose digits where a
+/// series falls slowly.
+enum class Terms { chebyshev, powers };
+
+/// Sums the first kSeries of kStride series abreast at t.
+///
+/// @param terms  shape (count, kStride)
+/// @return shape (kSeries)
+template <int kSeries, int kStride>
+[[gnu::always_inline]] inline std::array<Lanes, kSeries> sum_series(Terms kind, const double* terms,
+                                                                    std::size_t count,
+                                                                    const Lanes& t) {
+  std::array<Lanes, kSeries> one{};
+  if (kind == Terms::powers) {  // Horner
+    for (std::size_t m = count; m-- > 0;) {
+      const double* term = terms + kStride * m;
+#pragma GCC unroll 12
+      for (int k = 0; k < kSeries; ++k) one[k] = one[k] * t + term[k];
+    }
+    return one;
+  }
+  const Lanes twice = 2.0 * t;  // Clenshaw
+  std::array<Lanes, kSeries> two{};
+  for (std::size_t m = count - 1; m > 0; --m) {
+    const double* term = terms + kStride * m;
+#pragma GCC unroll 12
+    for (int k = 0; k < kSeries; ++k) {
+      const Lanes next = term[k] + (twice * one[k] - two[k]);
+      two[k] = one[k];
+      one[k] = next;
+    }
+  }
+#pragma GCC unroll 12
+  for (int k = 0; k < kSeries; ++k) one[k] = terms[k] + (t * one[k] - two[k]);
+  return one;
+}
+
+}  // namespace millstudy::force

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "force/nonlinear_force.h"
+#include "force/sampler.h"
+#include "unit/force/cases.h"
+
+namespace millstudy::force {
+namespace {
+
+using testing::distance;
+using testing::Force;
+using testing::uniform;
+
+/// A cutter whose axis is offset, and everything else that a sampler has to do with.
+struct RunoutCase {
+  cutter::Cutter cutter;
+  Engagement engagement;
+  std::vector<Arc> arcs;  ///< the engagement's, or with a gap in it
+  Coefficients coefficients;
+  Feed feed;
+
+  ForceSampler sampler(int steps, bool with_moments = false) const {
+    return ForceSampler(cutter, engagement, {}, steps, {}, with_moments).with_arcs(arcs);
+  }
+};
+
+std::ostream& operator<<(std::ostream& out, const RunoutCase& c) {
+  return out << "shape=" << static_cast<int>(c.cutter.shape) << " N=" << c.cutter.flutes
+             << " helix_deg=" << core::deg_from_rad(c.cutter.helix_angle)
+             << " pitch_angles=" << c.cutter.pitch_angles.size()
+             << " offset=" << c.cutter.runout.offset << " angle=" << c.cutter.runout.angle
+             << " entry=" << c.engagement.entry_angle << " exit=" << c.engagement.exit_angle
+             << " arcs=" << c.arcs.size() << " depth=" << c.engagement.axial_depth
+             << " feed=" << c.feed.per_tooth << " direction=" << c.feed.direction;
+}
+
+/// Offsets from a fiftieth of the feed, where every tooth cuts, to five times of it, where most
+/// miss their cut.
+RunoutCase random_runout_case(std::mt19937_64& random) {
+  using cutter::Shape;
+  constexpr std::array<Shape, 4> kShapes = {Shape::flat, Shape::ball, Shape::bull_nose,
+                                            Shape::taper};
+  RunoutCase c;
+  c.cutter = {kShapes[random() % 4], uniform(random, 4.0, 20.0),
+              1 + static_cast<int>(random() % 5)};
+  const double radius = cutter::radius(c.cutter);
+  if (random() % 5) c.cutter.helix_angle = core::rad_from_deg(uniform(random, 2.0, 55.0));
+  if (random() % 2) c.cutter.helix_angle = -c.cutter.helix_angle;
+  if (c.cutter.shape == Shape::bull_nose) {
+    c.cutter.corner_radius = radius * uniform(random, 0.1, 0.9);
+  }
+  if (c.cutter.shape == Shape::taper) {
+    c.cutter.taper_angle = core::rad_from_deg(uniform(random, 1.0, 20.0));
+    if (random() % 2) c.cutter.corner_radius = radius * uniform(random, 0.1, 0.5);
+  }
+  if (random() % 2) {
+    std::vector<double>& pitch = c.cutter.pitch_angles;
+    for (int j = 0; j < c.cutter.flutes; ++j) pitch.push_back(uniform(random, 0.5, 1.5));
+    const double sum = std::accumulate(pitch.begin(), pitch.end(), 0.0);
+    for (double& angle : pitch) angle *= 2.0 * core::kPi / sum;
+  }
+  const double depth = radius * std::pow(10.0, uniform(random, -2.0, 0.5));
+  const double a = uniform(random, 0.0, core::kPi), b = uniform(random, 0.0, core::kPi);
+  switch (random() % 3) {
+    case 0:
+      c.engagement = slot(depth);
+      break;
+    case 1:
+      c.engagement = random() % 2
+                         ? up_milling(radius, radius * uniform(random, 0.01, 1.9), depth)
+                         : down_milling(radius, radius * uniform(random, 0.01, 1.9), depth);
+      break;
+    default:
+      c.engagement = {std::min(a, b), std::max(a, b) + 1e-3 * (core::kPi - std::max(a, b)), depth};
+  }
+  const Arc arc = c.engagement.arc();
+  c.arcs = {arc};
+  if (random() % 4 == 0) {
+    const double width = arc.exit_angle - arc.entry_angle;
+    const double from = arc.entry_angle + width * uniform(random, 0.2, 0.5);
+    c.arcs = {{arc.entry_angle, from}, {from + width * uniform(random, 0.1, 0.4), arc.exit_angle}};
+  }
+  for (double* k : {&c.coefficients.Ktc, &c.coefficients.Krc, &c.coefficients.Kac}) {
+    *k = uniform(random, 100.0, 2500.0);
+  }
+  for (double* k : {&c.coefficients.Kte, &c.coefficients.Kre, &c.coefficients.Kae}) {
+    *k = uniform(random, 0.0, 20.0);
+  }
+  c.feed = {uniform(random, 0.01, 0.2), uniform(random, -10.0, 10.0)};
+  c.cutter.runout = {c.feed.per_tooth * std::pow(10.0, uniform(random, -1.7, 0.7)),
+                     uniform(random, -4.0, 4.0)};
+  return c;
+}
+
+/// The sum of all flutes by quadrature, in machine axes.
+class Reference {
+ public:
+  Reference(const RunoutCase& c, Rows rows)
+      : case_(c),
+        rows_(rows),
+        edges_(
+            std::make_shared<const CuttingEdges>(c.cutter, c.engagement.axial_depth, Variation{})),
+        force_(edges_, {}) {}
+
+  Force at(double spindle_angle) const {
+    const double theta = case_.feed.direction;
+    Force sum{};
+    for (int j = 0; j < case_.cutter.flutes; ++j) {
+      const Force flute = force_.of_flute(j, spindle_angle + theta + edges_->flutes()[j].position,
+                                          case_.arcs, case_.coefficients, case_.feed, rows_);
+      for (int row = 0; row < kRows; ++row) sum[row] += flute[row];
+    }
+    return {sum[0] * std::cos(theta) - sum[1] * std::sin(theta),
+            sum[0] * std::sin(theta) + sum[1] * std::cos(theta), sum[2], sum[3]};
+  }
+
+ private:
+  const RunoutCase& case_;
+  Rows rows_;
+  std::shared_ptr<const CuttingEdges> edges_;
+  NonlinearForce force_;
+};
+
+Force sample_at(const ForceSamples& samples, std::size_t i) {
+  return {samples.x[i], samples.y[i], samples.z[i], samples.torque[i]};
+}
+
+/// Largest disagreement with the reference over the peak, where it is more than what rounding the
+/// angle by 4e-15 rad does to the reference.
+double disagreement(const RunoutCase& c, const ForceSamples& samples, Rows rows, int steps) {
+  const Reference reference(c, rows);
+  const double radius = cutter::radius(c.cutter);
+  std::vector<Force> expected;
+  double peak = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    expected.push_back(reference.at(2.0 * core::kPi * i / steps));
+    peak = std::max(peak, distance(expected.back(), Force{}, radius));
+  }
+  double worst = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    double off = distance(sample_at(samples, i), expected[i], radius);
+    if (off > 1e-13 * peak) {
+      const double angle = 2.0 * core::kPi * i / steps;
+      off -= distance(reference.at(angle - 4e-15), reference.at(angle + 4e-15), radius);
+    }
+    worst = std::max(worst, off);
+  }
+  return peak > 0.0 ? worst / peak : worst;
+}
+
+TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesByQuadrature) {
+  constexpr int kCases = 3000;
+  std::mt19937_64 random(20261125);
+  double worst = 0.0;
+  for (int round = 0; round < kCases; ++round) {
+    const RunoutCase c = random_runout_case(random);
+    const int steps = 24 + static_cast<int>(random() % 40);
+    ForceSamples samples;
+    c.sampler(steps).sample(c.coefficients, c.feed, 0, steps, samples);
+    const double found = disagreement(c, samples, Rows::forces, steps);
+    EXPECT_LT(found, 1e-12) << c << " steps=" << steps;
+    worst = std::max(worst, found);
+  }
+  std::cout << "runout against quadrature, " << kCases << " cases: " << worst << " of the peak\n";
+}
+
+/// So many angles that within every stretch of the revolution some are far from its ends.
+TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesAtManyAngles) {
+  std::mt19937_64 random(5);
+  double worst = 0.0;
+  for (int round = 0; round < 200; ++round) {
+    const RunoutCase c = random_runout_case(random);
+    const int steps = 720;
+    ForceSamples samples;
+    c.sampler(steps).sample(c.coefficients, c.feed, 0, steps, samples);
+    const double found = disagreement(c, samples, Rows::forces, steps);
+    EXPECT_LT(found, 1e-12) << c << " steps=" << steps;
+    worst = std::max(worst, found);
+  }
+  std::cout << "runout against quadrature, 720 angles: " << worst << " of the peak\n";
+}
+
+TEST(ForceSamplerWithRunout, MomentsAreTheSumOfTheFlutesByQuadrature) {
+  std::mt19937_64 random(3);
+  double worst = 0.0;
+  for (int round = 0; round < 500; ++round) {
+    const RunoutCase c = random_runout_case(random);
+    const int steps = 24 + static_cast<int>(random() % 40);
+    ForceSamples samples;
+    c.sampler(steps, true).sample_moments(c.coefficients, c.feed, 0, steps, samples);
+    const double found = disagreement(c, samples, Rows::moments, steps);
+    EXPECT_LT(found, 1e-12) << c << " steps=" << steps;
+    worst = std::max(worst, found);
+  }
+  std::cout << "moments with runout against quadrature: " << worst << " of the peak\n";
+}
+
+TEST(ForceSamplerWithRunout, TendsToTheCutterWithoutIt) {
+  std::mt19937_64 random(17);
+  for (int round = 0; round < 200; ++round) {
+    RunoutCase c = random_runout_case(random);
+    ForceSamples with, without;
+    c.cutter.runout.offset = 1e-14;
+    c.sampler(90).sample(c.coefficients, c.feed, 0, 90, with);
+    c.cutter.runout.offset = 0.0;
+    c.sampler(90).sample(c.coefficients, c.feed, 0, 90, without);
+    const double radius = cutter::radius(c.cutter);
+    double peak = 0.0, off = 0.0;
+    for (int i = 0; i < 90; ++i) {
+      peak = std::max(peak, distance(sample_at(without, i), Force{}, radius));
+      off = std::max(off, distance(sample_at(with, i), sample_at(without, i), radius));
+    }
+    EXPECT_LE(off, 2e-11 * peak) << c;
+  }
+}
+
+bool same_bits(const ForceSamples& a, std::size_t at_a, const ForceSamples& b, std::size_t at_b,
+               std::size_t count) {
+  const auto same = [&](const std::vector<double>& u, const std::vector<double>& v) {
+    return std::memcmp(u.data() + at_a, v.data() + at_b, count * sizeof(double)) == 0;
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.torque, b.torque);
+}
+
+TEST(ForceSamplerWithRunout, SamplesInPiecesAreThoseAtOnceBitForBit) {
+  std::mt19937_64 random(29);
+  for (int round = 0; round < 300; ++round) {
+    const RunoutCase c = random_runout_case(random);
+    const int steps = 1 + static_cast<int>(random() % 400);
+    const ForceSampler sampler = c.sampler(steps);
+    const std::int64_t first = static_cast<std::int64_t>(random() % 2000) - 1000;
+    const std::int64_t count = 1 + static_cast<std::int64_t>(random() % 900);
+    ForceSamples whole, piece;
+    sampler.sample(c.coefficients, c.feed, first, count, whole);
+    for (std::int64_t done = 0; done < count;) {
+      const std::int64_t part = std::min<std::int64_t>(count - done, random() % 60);
+      sampler.sample(c.coefficients, c.feed, first + done, part, piece);
+      ASSERT_TRUE(same_bits(whole, done, piece, 0, part)) << c << " at " << done;
+      done += part;
+    }
+  }
+}
+
+TEST(ForceSamplerWithRunout, IsTheSumOfItsFlutes) {
+  std::mt19937_64 random(31);
+  for (int round = 0; round < 200; ++round) {
+    const RunoutCase c = random_runout_case(random);
+    const ForceSampler sampler = c.sampler(120);
+    ForceSamples all, flute;
+    sampler.sample(c.coefficients, c.feed, 7, 120, all);
+    std::vector<Force> sum(120);
+    double peak = 0.0;
+    for (int j = 0; j < c.cutter.flutes; ++j) {
+      sampler.sample_flute(j, c.coefficients, c.feed, 7, 120, flute);
+      for (int i = 0; i < 120; ++i) {
+        const Force of_flute = sample_at(flute, i);
+        for (int row = 0; row < kRows; ++row) sum[i][row] += of_flute[row];
+        peak = std::max(peak, distance(of_flute, Force{}, cutter::radius(c.cutter)));
+      }
+    }
+    for (int i = 0; i < 120; ++i) {
+      EXPECT_LE(distance(sample_at(all, i), sum[i], cutter::radius(c.cutter)), 1e-14 * peak) << c;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace millstudy::force
