@@ -140,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(OfEveryShape, RandomCutter,
                          ::testing::Values(Kind::flat, Kind::ball, Kind::tapered_ball,
                                            Kind::bull_nose, Kind::taper, Kind::general,
                                            Kind::general_centred, Kind::profile),
-                         [](const auto& info) {
-                           std::string text = testing::name(info.param);
+                         [](const auto& test) {
+                           std::string text = testing::name(test.param);
                            std::erase_if(text, [](char c) {
                              return !std::isalpha(static_cast<unsigned char>(c));
                            });
