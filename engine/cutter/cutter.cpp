@@ -71,6 +71,9 @@ void check_profile(const Cutter& cutter, Checker& checker) {
   checker.holds(profile && profile->size() >= 2, "a profile must have at least two points");
   if (!profile || profile->empty()) return;
   checker.holds(profile->front().z == 0.0, "the heights of a profile must begin with 0");
+  checker.holds(std::any_of(profile->begin(), profile->end(),
+                            [](const ProfilePoint& point) { return point.r > 0.0; }),
+                "a profile must have a radius above 0 mm");
   for (std::size_t i = 0; i < profile->size(); ++i) {
     const auto [z, r] = (*profile)[i];
     if (!(r >= 0.0 && r <= kLargestDiameter && z <= kLargestDiameter)) {

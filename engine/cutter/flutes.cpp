@@ -2,6 +2,7 @@
 #include "cutter/flutes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/units.h"
@@ -9,6 +10,8 @@
 namespace millstudy::cutter {
 
 std::vector<Flute> flutes(const Cutter& cutter) {
+  assert(cutter.pitch_angles.empty() || std::ssize(cutter.pitch_angles) == cutter.flutes);
+  assert(cutter.helix_angles.empty() || std::ssize(cutter.helix_angles) == cutter.flutes);
   std::vector<Flute> all(cutter.flutes);
   double listed = 0.0;
   for (int j = 0; j < cutter.flutes; ++j) {

@@ -13,7 +13,8 @@ struct Flute {
   double helix_tangent = 0.0;  ///< tan of its helix angle; negative for left hand
 };
 
-/// The flutes in order of position; shape (N). Flute j follows flute j + 1.
+/// The flutes in order of position; shape (N). Flute j follows flute j + 1. Of a cutter that
+/// check() lets pass.
 std::vector<Flute> flutes(const Cutter& cutter);
 
 /// True if all flutes have one helix angle and one pitch, as far as doubles tell.

@@ -87,9 +87,10 @@ void check(const cutter::Cutter& cutter, const Engagement& engagement) {
 
 double largest_axial_depth(const cutter::Cutter& cutter) {
   const cutter::Envelope envelope(cutter);
-  double steepest = 0.0;
-  for (const cutter::Flute& flute : cutter::flutes(cutter)) {
-    steepest = std::max(steepest, std::abs(flute.helix_tangent));
+  // Not of cutter::flutes(): the lists may still be of the wrong length here.
+  double steepest = cutter.helix_angles.empty() ? std::abs(std::tan(cutter.helix_angle)) : 0.0;
+  for (const double helix : cutter.helix_angles) {
+    steepest = std::max(steepest, std::abs(std::tan(helix)));
   }
   const double turns = kMostTurns * 2.0 * core::kPi / steepest;
   return std::min(envelope.length(),

@@ -25,7 +25,7 @@ std::string evaluate_point(const EvaluatePoint& evaluate, const std::vector<swee
   }
   for (std::size_t c = 0; c < row.size(); ++c) {
     const bool missing = columns[c].may_be_missing && std::isnan(row[c]);
-    if (!std::isfinite(row[c]) && !missing) return "a result is not finite";
+    if (!std::isfinite(row[c]) && !missing) return columns[c].name + " is not finite";
   }
   return "";
 }

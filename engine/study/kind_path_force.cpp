@@ -23,7 +23,7 @@ void check(const Given& given, const Case& base, Faults& faults) {
   if (steepest > force::kSteepestSlope * (1.0 + 1e-9)) {
     faults.add(
         given.place({"path.curve_file"}),
-        fmt::format("the path climbs by {:.3g} deg: kind path_force computes forces up to "
+        fmt::format("the path climbs or falls by {:.6g} deg: kind path_force computes forces up to "
                     "{:.0f} deg",
                     core::deg_from_rad(steepest), core::deg_from_rad(force::kSteepestSlope)));
   }

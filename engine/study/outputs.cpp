@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+#include "study/rows.h"
+
 namespace millstudy::study {
 namespace {
 
@@ -48,6 +51,16 @@ Outputs asked_outputs(const Study& study, const SettingMap& settings, const Give
   if (flag("output.per_flute", settings)) outputs.flutes = most_flutes(study, settings, given);
   outputs.bending_moment = given.has("cutter.stick_out_mm");
   return outputs;
+}
+
+void check_outputs(const Study& study, const Given& given, Faults& faults) {
+  if (study.outputs.harmonics == 0) return;  // kind path has none
+  if (given.any_swept({"cutter.flutes", "numerics.angular_steps"})) return;
+  try {
+    figure_request(study.base, study.outputs);
+  } catch (const core::CaseError& error) {
+    faults.add(given.place({"output.harmonics"}), error.what());
+  }
 }
 
 }  // namespace millstudy::study

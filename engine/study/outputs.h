@@ -12,4 +12,8 @@ std::vector<Setting> all_settings(const Key& key, const Study& study, const Sett
 /// What the study asks for, over all of its points.
 Outputs asked_outputs(const Study& study, const SettingMap& settings, const Given& given);
 
+/// Adds a fault where no point of the study has samples enough for its harmonics. Where flutes or
+/// samples are swept, the points that lack them fail.
+void check_outputs(const Study& study, const Given& given, Faults& faults);
+
 }  // namespace millstudy::study

@@ -53,8 +53,9 @@ class Resolver {
     study_.kind->check(given_, study_.base, faults_);
     check_limits();
     check_name();
-    faults_.throw_if_any();
     study_.outputs = asked_outputs(study_, settings_, given_);
+    check_outputs(study_, given_, faults_);
+    faults_.throw_if_any();
     study_.columns = study_.kind->columns(study_.outputs);
     study_.warnings = left_validity(study_, given_);
     study_.canonical = canonical_text(study_, settings_, given_);

@@ -53,6 +53,12 @@ std::vector<BrokenRule> broken_cutter_rules(const Case& point) {
                       fmt::format("{} > {} mm", cutter.corner_radius, cutter::radius(cutter)),
                       {"cutter.shape", "cutter.diameter_mm"}});
   }
+  if (cutter.runout.offset > cutter::radius(cutter)) {
+    broken.push_back({"cutter.runout_offset_mm",
+                      "cutter.runout_offset_mm must be <= half of cutter.diameter_mm",
+                      fmt::format("{} > {} mm", cutter.runout.offset, cutter::radius(cutter)),
+                      {"cutter.diameter_mm"}});
+  }
   return broken;
 }
 

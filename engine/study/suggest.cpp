@@ -42,7 +42,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
   const std::string_view best = nearest(word, known);
-  return best.empty() ? "" : "; did you mean " + std::string(best) + "?";
+  return best.empty() || best == word ? "" : "; did you mean " + std::string(best) + "?";
 }
 
 }  // namespace millstudy::study
