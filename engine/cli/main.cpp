@@ -31,7 +31,8 @@ int guarded(const std::function<int()>& command) {
     std::fprintf(stderr, "%s\n", error.what());
     return cli::kInterrupted;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "out of memory, nothing was kept: use fewer threads, or fewer samples per point\n");
+    std::fprintf(
+        stderr, "out of memory, nothing was kept: use fewer threads, or fewer samples per point\n");
     return cli::kInterrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "internal error: %s\n", error.what());

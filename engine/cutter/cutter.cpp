@@ -79,8 +79,9 @@ void check_profile(const Cutter& cutter, Checker& checker) {
     if (!(r >= 0.0 && r <= kLargestDiameter && z <= kLargestDiameter)) {
       return checker.holds(false, "the points of a profile must be within 0 and 10000 mm");
     }
-    if (i > 0 && !(z > (*profile)[i - 1].z)) {
-      return checker.holds(false, "the heights of a profile must ascend");
+    constexpr double kLeastStep = 1e-9;  // [mm]: slopes stay numbers
+    if (i > 0 && !(z >= (*profile)[i - 1].z + kLeastStep)) {
+      return checker.holds(false, "the heights of a profile must ascend, by 1e-9 mm at least");
     }
   }
 }

@@ -100,8 +100,10 @@ std::array<double, 3> oblique_coefficients(const OrthogonalData& data, double in
   const double cos_i = std::cos(inclination);
   const double normal_friction = std::atan(std::tan(friction) * cos_i);  // eta = i
   const double sin_f = std::sin(normal_friction);
+  // Within a degree of a right angle, and beyond, shearing has no meaning any more: kept off it.
+  const double plane = std::min(shear + normal_friction - rake, core::rad_from_deg(89.0));
   const double cos_fr = std::cos(normal_friction - rake);
-  const double c = std::hypot(std::cos(shear + normal_friction - rake), tan_i * sin_f);
+  const double c = std::hypot(std::cos(plane), tan_i * sin_f);
   const double scale = stress / (std::sin(shear) * c);
   return {scale * (cos_fr + tan_i * tan_i * sin_f),
           scale * std::sin(normal_friction - rake) / cos_i,

@@ -61,8 +61,8 @@ std::array<double, 6> height_factors(const HeightFactors& factors, double z);
 /// @param inclination     i, the local helix angle [rad]; its sign does not count: a left-hand
 ///                        cutter has the same coefficients
 /// @param chip_thickness  h [mm]
-/// The shear angle is kept within 1..80 deg and the friction angle within 0..80 deg, whatever the
-/// linear rates say.
+/// Whatever the linear rates say, the shear stress is kept >= 0, the shear angle within 1..80 deg,
+/// the friction angle within 0..80 deg, and shear angle plus normal friction less rake <= 89 deg.
 std::array<double, 3> oblique_coefficients(const OrthogonalData& data, double inclination,
                                            double chip_thickness);
 

@@ -65,12 +65,17 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   EngagedSampler samplers(sampler, machining.engagement.arc());
   const double rounding = rounding_of(path);
   double direction = first_direction(path);
+  double swept = 0.0;  // length times width over radius [mm]
   for (std::int64_t i = 0; i < periods; ++i) {
     const Chord chord = chord_of(path, i, rounding, direction);
     direction = chord.direction;
     const force::Feed feed{chord.length / teeth_per_period, direction, chord.slope};  // (M1), (M3)
     const ArcSet arcs = engagement.arcs(i, direction);
     const force::ForceSampler& engaged = samplers.of(arcs);
+    for (const force::Arc& arc : arcs.arcs()) {  // (M12)
+      swept += chord.length * std::cos(chord.slope) *
+               (std::cos(arc.entry_angle) - std::cos(arc.exit_angle));
+    }
     const std::int64_t end = first_sample_of_period(i + 1, samples_per_period);
     for (std::int64_t first = first_sample_of_period(i, samples_per_period); first < end;) {
       const std::int64_t count = std::min(kBatch, end - first);
@@ -82,6 +87,9 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
     }
   }
   result.figures = figures.result();
+  const double section =
+      cutter::section_area(sampler.edges().envelope(), machining.engagement.axial_depth);
+  result.removal_rate = swept * section / (static_cast<double>(periods) * path.period);
   return result;
 }
 

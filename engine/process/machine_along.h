@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "force/sampler.h"
 #include "force/figures.h"
+#include "force/sampler.h"
 #include "path/interpolate.h"
 #include "process/machining.h"
 
@@ -14,6 +14,8 @@ namespace millstudy::process {
 /// Forces over the whole path, in machine axes.
 struct PathForces {
   force::ForceFigures figures;
+  double removal_rate =
+      0.0;  ///< volume that the arcs take per time, the mean over the path [mm3/s]
   std::int64_t samples = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "cutter/envelope.h"
+#include "cutter/flutes.h"
 
 namespace millstudy::study {
 
@@ -91,12 +92,17 @@ double cutting_speed(const Case& point) {
 
 double radial_immersion(const Case& point) {
   const force::Engagement arc = engagement(point);
-  return 0.5 * (std::cos(arc.entry_angle) - std::cos(arc.exit_angle));
+  // (cos entry - cos exit) / 2, without losing the digits of a thin cut.
+  return std::sin(0.5 * (arc.entry_angle + arc.exit_angle)) *
+         std::sin(0.5 * (arc.exit_angle - arc.entry_angle));
 }
 
 double disc_samples(const Case& point) {
   if (point.edge_rule.rule != force::Rule::discs) return 0.0;
-  return static_cast<double>(point.edge_rule.discs) * point.angular_steps;
+  const double discs = static_cast<double>(point.edge_rule.discs) * point.angular_steps;
+  // With runout every disc of every flute looks at all flutes before it.
+  const double flutes = point.cutter.flutes;
+  return cutter::has_runout(point.cutter) ? discs * flutes * flutes : discs;
 }
 
 double material_removal_rate(const Case& point) {

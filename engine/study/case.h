@@ -84,12 +84,15 @@ force::Engagement engagement(const Case& point);
 double cutting_speed(const Case& point);
 /// Radial depth over diameter, 1 in a slot.
 double radial_immersion(const Case& point);
-/// Discs evaluated for the samples of one revolution and tooth; 0 for the exact rule.
+/// Discs evaluated for the samples of one revolution and tooth, of all teeth squared with runout; 0
+/// for the exact rule.
 double disc_samples(const Case& point);
 /// Above this many a revolution takes seconds a tooth: refused.
 inline constexpr double kMostDiscSamples = 1e9;
 inline constexpr const char* kTooManyDiscs =
-    "numerics.discs x numerics.angular_steps must be <= 1e9 with rule discs";
+    "numerics.discs x numerics.angular_steps (with runout times the square of cutter.flutes) must "
+    "be "
+    "<= 1e9 with rule discs";
 /// @throws core::CaseError if feed per tooth exceeds the cutter's radius: no chip is like that, the
 /// spindle speed or the feed rate is mistaken
 void check_feed(const Case& point);

@@ -93,7 +93,9 @@ void check_cut(const Given& given, const Case& base, Faults& faults) {
 }
 
 void check_numerics(const Given& given, const Case& base, Faults& faults) {
-  if (given.any_swept({"numerics.rule", "numerics.discs", "numerics.angular_steps"})) return;
+  if (given.any_swept({"numerics.rule", "numerics.discs", "numerics.angular_steps", "cutter.flutes",
+                       "cutter.runout_offset_mm", "cutter.runout_tilt_deg"}))
+    return;
   if (disc_samples(base) <= kMostDiscSamples) return;
   faults.add(given.place({"numerics.discs", "numerics.angular_steps"}), kTooManyDiscs);
 }

@@ -66,18 +66,19 @@ force::FigureRequest figure_request(const Case& point, const Outputs& outputs) {
 std::vector<sweep::Column> force_columns(const Outputs& outputs) {
   Columns columns;
   add_statistics(columns);
-  columns.insert(columns.end(),
-                 {
-                     {"torque_mean", "N m", "mean spindle torque"},
-                     {"torque_max", "N m", "largest spindle torque"},
-                     {"power_mean", "W", "mean cutting power"},
-                     {"chip_thickness_max", "mm", "largest uncut chip thickness"},
-                     {"feed_per_tooth", "mm", "commanded feed per tooth"},
-                     {"material_removal_rate", "cm3 min-1", "material removal rate"},
-                     {"power_max", "W", "largest cutting power"},
-                     {"cutting_time_fraction", "1", "part of the time in which a flute cuts"},
-                     {"specific_energy", "J mm-3", "mean cutting power per material removal rate"},
-                 });
+  columns.insert(
+      columns.end(),
+      {
+          {"torque_mean", "N m", "mean spindle torque"},
+          {"torque_max", "N m", "largest spindle torque"},
+          {"power_mean", "W", "mean cutting power"},
+          {"chip_thickness_max", "mm", "largest uncut chip thickness"},
+          {"feed_per_tooth", "mm", "commanded feed per tooth"},
+          {"material_removal_rate", "cm3 min-1", "material removal rate"},
+          {"power_max", "W", "largest cutting power"},
+          {"cutting_time_fraction", "1", "part of the time with a force on the tool"},
+          {"specific_energy", "J mm-3", "mean cutting power per material removal rate", true},
+      });
   if (outputs.bending_moment) {
     columns.push_back({"bending_moment_max", "N m", "largest bending moment at the holder", true});
   }
@@ -87,7 +88,7 @@ std::vector<sweep::Column> force_columns(const Outputs& outputs) {
 }
 
 void fill_force_row(const Case& point, const Outputs& outputs, const force::ForceFigures& figures,
-                    std::span<double> row) {
+                    double removal_rate, std::span<double> row) {
   std::size_t c = 0;
   const auto put = [&](double value) { row[c++] = value; };
   const force::ForceStatistics& force = figures.statistics;
@@ -97,16 +98,15 @@ void fill_force_row(const Case& point, const Outputs& outputs, const force::Forc
   const double angular_speed = 2.0 * core::kPi * point.cut.spindle_speed;  // [rad/s]
   const double torque_mean = core::newton_metre(force.torque_mean);
   const double torque_max = core::newton_metre(force.torque_max);
-  const double removal_rate = material_removal_rate(point);  // [mm3/s]
   put(torque_mean);
   put(torque_max);
   put(torque_mean * angular_speed);
   put(figures.chip_thickness_max);
   put(feed_per_tooth(point));
-  put(core::cm3_per_min_from_mm3_per_s(removal_rate));
+  put(core::cm3_per_min_from_mm3_per_s(material_removal_rate(point)));
   put(torque_max * angular_speed);
   put(force.cutting_fraction);
-  put(torque_mean * angular_speed / removal_rate);
+  put(removal_rate > 0.0 ? torque_mean * angular_speed / removal_rate : kNone);
   if (outputs.bending_moment) {
     put(point.stick_out ? core::newton_metre(figures.bending_moment_max) : kNone);
   }

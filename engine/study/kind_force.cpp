@@ -21,7 +21,7 @@ EvaluatePoint make_evaluator(const Outputs& outputs) {
     sampler->sample(coefficients, feed, 0, point.angular_steps, samples);
     force::FigureAccumulator figures(request, *sampler);
     figures.add(*sampler, coefficients, feed, 0, point.angular_steps, samples);
-    fill_force_row(point, outputs, figures.result(), row);
+    fill_force_row(point, outputs, figures.result(), material_removal_rate(point), row);
     if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
   };
 }

@@ -59,7 +59,7 @@ class PathForceEvaluator {
         path->interpolation, *sampler, machining, trace ? recorder(point, *trace) : nullptr);
     static const std::size_t path_count = path_columns().size();
     fill_path_row(path->figures, row.first(path_count));
-    fill_force_row(point, outputs_, forces.figures, row.subspan(path_count));
+    fill_force_row(point, outputs_, forces.figures, forces.removal_rate, row.subspan(path_count));
   }
 
  private:

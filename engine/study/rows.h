@@ -23,9 +23,10 @@ force::FigureRequest figure_request(const Case& point, const Outputs& outputs);
 /// The force variables, in the order of fill_force_row().
 std::vector<sweep::Column> force_columns(const Outputs& outputs);
 /// @param figures  of the shape that outputs ask for
+/// @param removal_rate  volume that the cut takes per time, for the specific energy [mm3/s]
 /// @param row      flutes that the point does not have, and a moment without a stick-out, are NaN
 void fill_force_row(const Case& point, const Outputs& outputs, const force::ForceFigures& figures,
-                    std::span<double> row);
+                    double removal_rate, std::span<double> row);
 
 /// Interpolates the path of a case and measures it.
 struct MeasuredPath {

@@ -25,6 +25,23 @@ void check_count(std::string_view key, const std::vector<double>& angles, int fl
                     {"cutter.flutes"}});
 }
 
+/// Beyond a right angle the resultant force would point away from the shear plane: the formula then
+/// gives numbers without meaning, and infinite ones at it.
+void check_shear_plane(const Case& point, Rules& broken) {
+  const force::OrthogonalData& data = point.law.orthogonal;
+  const auto at_rake = [&](const force::OrthogonalQuantity& quantity) {
+    return quantity.constant + quantity.per_rake * data.rake_angle;
+  };
+  const double angle = at_rake(data.shear_angle) + at_rake(data.friction_angle) - data.rake_angle;
+  if (angle < 0.5 * core::kPi) return;
+  broken.push_back(
+      {"coefficients.shear_angle_deg",
+       "shear angle plus friction angle less rake must be < 90 deg",
+       fmt::format("{:.4g} deg", core::deg_from_rad(angle)),
+       {"coefficients.model", "coefficients.friction_angle_deg", "coefficients.rake_deg",
+        "coefficients.shear_angle_per_rake", "coefficients.friction_angle_per_rake"}});
+}
+
 void throw_first(const Rules& broken) {
   if (!broken.empty()) throw core::CaseError(broken.front().text);
 }
@@ -80,6 +97,7 @@ std::vector<BrokenRule> broken_coefficient_rules(const Case& point) {
          fmt::format("{} for {} heights", height.table[i].size(), height.heights.size()),
          {"coefficients.heights_mm"}});
   }
+  if (point.law.model == CoefficientModel::orthogonal) check_shear_plane(point, broken);
   for (const auto& [key, range] :
        {std::pair{"coefficients.valid_feed_per_tooth_mm", &point.valid.feed_per_tooth},
         {"coefficients.valid_cutting_speed_m_per_min", &point.valid.cutting_speed},

@@ -111,6 +111,7 @@ TEST(VaryingCut, RemovesTheVolumeOfTheStock) {
                       bench.machining.spindle_speed * duration;
   const double length = 30.0 - kRadius;
   EXPECT_NEAR(work, 0.5 * 12.0 * length, 3e-4 * work);
+  EXPECT_NEAR(cut.removal_rate * duration, work, 3e-4 * work);  // (M12)
 }
 
 TEST(VaryingCut, ConvergesWithThePeriodAtTheEndsOfTheStock) {

@@ -89,7 +89,7 @@ TEST(ForceRow, HasEveryFigureInItsColumn) {
   figures.harmonics[3][1] = 500.0;
   figures.flutes[1] = {0.06, 0.5};
   std::vector<double> row(columns.size(), -1.0);
-  fill_force_row(point, outputs, figures, row);
+  fill_force_row(point, outputs, figures, 100.0, row);
   const auto value = [&](std::string_view name) { return row.at(column(columns, name)); };
   EXPECT_EQ(value("cutting_time_fraction"), 0.25);
   EXPECT_EQ(value("bending_moment_max"), 3.0);
