@@ -286,21 +286,4 @@ double largest_sin_kappa(const Envelope& envelope, double depth) {
   return largest;
 }
 
-RadiusRange radius_range(const Envelope& envelope, double depth) {
-  RadiusRange range = {kInfinity, 0.0};
-  const auto take = [&](double r) {
-    range = {std::min(range.smallest, r), std::max(range.largest, r)};
-  };
-  for (const Segment& segment : envelope.segments()) {
-    if (segment.bottom > 0.0 && depth <= segment.bottom) break;
-    const double top = std::min(depth, segment.top);
-    take(segment.radius_at(segment.bottom));
-    take(segment.radius_at(top));
-    if (segment.is_arc && segment.bottom < segment.centre_height && top > segment.centre_height) {
-      take(segment.centre_radius + segment.corner_radius);
-    }
-  }
-  return range;
-}
-
 }  // namespace millstudy::cutter

@@ -62,8 +62,6 @@ class Envelope {
   /// @param radius, sin_kappa, lag_slope  of the point
   double edge_per_width(double helix_tangent, double radius, double sin_kappa,
                         double lag_slope) const;
-  /// True where edge coefficients are per chip width: edge_per_width() is then 1.
-  bool edge_is_chip_width() const { return edge_is_chip_width_; }
 
   /// The height up to which the envelope goes [mm]; infinite for most.
   double length() const { return segments_.back().top; }
@@ -74,8 +72,8 @@ class Envelope {
   // Constant helix along a taper: from here on (C13) instead of (C5).
   double helix_from_;        // height [mm], infinite with constant lead
   double helix_radius_ = 1;  // radius there [mm]
-  double helix_slope_ = 0;   // tan(beta)
-  double helix_sine_ = 0;    // sin(beta)
+  double helix_slope_ = 0;   // tan(tau), tau the taper
+  double helix_sine_ = 0;    // its sine
   bool edge_is_chip_width_ = false;
 };
 
@@ -95,12 +93,5 @@ double section_area(const Envelope& envelope, double depth);
 /// Largest sin(kappa) below a height [1]; the chip is thickest there.
 /// @param depth  height above the tip [mm], >= 0
 double largest_sin_kappa(const Envelope& envelope, double depth);
-
-/// Largest and smallest radius below a height [mm].
-struct RadiusRange {
-  double smallest;
-  double largest;
-};
-RadiusRange radius_range(const Envelope& envelope, double depth);
 
 }  // namespace millstudy::cutter

@@ -11,9 +11,9 @@ namespace millstudy::sweep {
 
 /// One result variable: a double for every point, NaN where a point has none.
 struct Column {
-  std::string name;       ///< as in the file: force_x_mean
-  std::string units;      ///< UDUNITS: N, mm, percent, 1
-  std::string long_name;  ///< for plots: "mean force on the tool along x"
+  std::string name;             ///< as in the file: force_x_mean
+  std::string units;            ///< UDUNITS: N, mm, percent, 1
+  std::string long_name;        ///< for plots: "mean force on the tool along x"
   bool may_be_missing = false;  ///< NaN is no failure: not every point has this
 };
 
