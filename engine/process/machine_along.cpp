@@ -38,6 +38,15 @@ class EngagedSampler {
   ArcSet last_arcs_;
 };
 
+/// Of the strip that arcs sweep, over the radius [1].
+double width_of(const ArcSet& arcs) {
+  double width = 0.0;
+  for (const force::Arc& arc : arcs.arcs()) {
+    width += std::cos(arc.entry_angle) - std::cos(arc.exit_angle);
+  }
+  return width;
+}
+
 }  // namespace
 
 std::int64_t first_sample_of_period(std::int64_t i, double samples_per_period) {
@@ -65,17 +74,20 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   EngagedSampler samplers(sampler, machining.engagement.arc());
   const double rounding = rounding_of(path);
   double direction = first_direction(path);
-  double swept = 0.0;  // length times width over radius [mm]
+  double swept = 0.0;  // (M12): length times width over radius [mm]
+  double width = 0.0;
+  ArcSet last_arcs;
   for (std::int64_t i = 0; i < periods; ++i) {
     const Chord chord = chord_of(path, i, rounding, direction);
     direction = chord.direction;
     const force::Feed feed{chord.length / teeth_per_period, direction, chord.slope};  // (M1), (M3)
     const ArcSet arcs = engagement.arcs(i, direction);
     const force::ForceSampler& engaged = samplers.of(arcs);
-    for (const force::Arc& arc : arcs.arcs()) {  // (M12)
-      swept += chord.length * std::cos(chord.slope) *
-               (std::cos(arc.entry_angle) - std::cos(arc.exit_angle));
+    if (i == 0 || arcs != last_arcs) {
+      width = width_of(arcs);
+      last_arcs = arcs;
     }
+    swept += (chord.slope == 0.0 ? chord.length : chord.length * std::cos(chord.slope)) * width;
     const std::int64_t end = first_sample_of_period(i + 1, samples_per_period);
     for (std::int64_t first = first_sample_of_period(i, samples_per_period); first < end;) {
       const std::int64_t count = std::min(kBatch, end - first);
