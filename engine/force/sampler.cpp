@@ -59,8 +59,25 @@ struct ToothGeometry {
       if (closed_form && piece.segment.is_cylinder()) {
         cylinders.emplace_back(*edges, flute, piece);
       } else {
-        series.emplace_back(*edges, rows, flute, piece);
+        add_series(*edges, rows, flute, piece);
       }
+    }
+  }
+
+  /// A cylinder comes in one piece of any length, for its closed form; where that does not serve,
+  /// as for moments, it is cut until its series can resolve the turns of the helix.
+  void add_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece) {
+    constexpr double kLongest = 3.0;  // [rad] of lag
+    const double tangent = edges.flutes()[flute].helix_tangent;
+    const int parts =
+        piece.segment.is_cylinder()
+            ? 1 + static_cast<int>(edges.span(piece, tangent, piece.bottom, piece.top) / kLongest)
+            : 1;
+    EdgePiece part = piece;
+    for (int i = 1; i <= parts; ++i) {
+      part.top = i == parts ? piece.top : piece.bottom + (piece.top - piece.bottom) * i / parts;
+      series.emplace_back(edges, rows, flute, part);
+      part.bottom = part.top;
     }
   }
 
