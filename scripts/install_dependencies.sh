@@ -5,7 +5,8 @@ set -euo pipefail
 
 packages=(
   ca-certificates cmake g++ git ninja-build pkg-config
-  libbenchmark-dev libcli11-dev libfmt-dev libgtest-dev libhdf5-dev libssl-dev libtbb-dev
+  libbenchmark-dev libceres-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev libhdf5-dev libmatio-dev
+  libssl-dev libtbb-dev
   libtomlplusplus-dev nlohmann-json3-dev
   python3 python3-h5netcdf python3-h5py python3-matplotlib python3-netcdf4 python3-scipy python3-xarray
   netcdf-bin octave
