@@ -15,9 +15,9 @@ inline constexpr std::array<std::string_view, 3> kAxisNames = {"x", "y", "z"};
 /// Forces on the tool in the model's axes over one time window, evenly sampled: what a fit is made
 /// to. Sample i was taken at start + i / sampling_rate.
 struct Trace {
-  std::string source;          ///< the file it was read from, for messages
-  double sampling_rate = 0.0;  ///< [1/s], > 0
-  double start = 0.0;          ///< of the first sample, on the clock of the file [s]
+  std::string source;                        ///< the file it was read from, for messages
+  double sampling_rate = 0.0;                ///< [1/s], > 0
+  double start = 0.0;                        ///< of the first sample, on the clock of the file [s]
   std::array<std::vector<double>, 3> force;  ///< x, y, z [N]; equal lengths, or empty: not measured
 
   /// Samples per axis.
