@@ -23,8 +23,8 @@ struct ChannelSet {
   /// What the header or a waveform property says [Hz]; the time column is not consulted.
   std::optional<double> sampling_rate;
   std::vector<double> time;  ///< time column [s], one for each sample; empty: none
-  double start = 0.0;        ///< of the first sample on the file's clock [s], where there is no time
-  std::string recorded;      ///< date and time of the measurement as written; often empty
+  double start = 0.0;    ///< of the first sample on the file's clock [s], where there is no time
+  std::string recorded;  ///< date and time of the measurement as written; often empty
   /// What the user should hear of: "the header says 500001 samples, the file holds 10001".
   std::vector<std::string> remarks;
 
