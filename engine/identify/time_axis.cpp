@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 
 #include "core/error.h"
@@ -41,6 +42,17 @@ class Rounding {
         power.decimals = std::max(power.decimals, decimals_of(time));
       }
     }
+    // A power with few times, perhaps all of them whole: a fixed number of digits takes one decimal
+    // for every power of ten, and never adds one.
+    for (auto power = powers_.begin(); std::next(power) != powers_.end(); ++power) {
+      const auto next = std::next(power);
+      next->second.decimals =
+          std::max(next->second.decimals, power->second.decimals - (next->first - power->first));
+    }
+    for (auto power = powers_.rbegin(); std::next(power) != powers_.rend(); ++power) {
+      const auto smaller = std::next(power);
+      smaller->second.decimals = std::max(smaller->second.decimals, power->second.decimals);
+    }
   }
   /// Distance of the numbers that a time near this can be [s].
   double near(double time) const {
@@ -64,11 +76,20 @@ core::Fault fault_at(const ChannelSet& set, std::size_t sample, const std::strin
   return {{set.source, line}, line > 0 ? text : fmt::format("sample {}: {}", sample, text)};
 }
 
-/// The nearest number of six digits, if it is within the tolerance (relative).
+/// The number of the fewest digits within a tolerance (relative).
 double round_rate(double rate, double tolerance) {
-  const double unit = std::pow(10.0, power_of_ten(rate) - 5);
-  const double rounded = std::round(rate / unit) * unit;
-  return std::abs(rounded - rate) <= tolerance * rate ? rounded : rate;
+  for (int digits = 1; digits <= 12; ++digits) {
+    const double unit = std::pow(10.0, power_of_ten(rate) + 1 - digits);
+    const double rounded = std::round(rate / unit) * unit;
+    if (std::abs(rounded - rate) <= tolerance * rate) return rounded;
+  }
+  return rate;
+}
+
+/// Whether times that are rounded to multiples of a unit are exact, the step being a multiple.
+bool is_multiple(double step, double unit) {
+  const double times = unit > 0.0 ? step / unit : 0.0;
+  return times > 0.5 && std::abs(times - std::round(times)) < 1e-3;
 }
 
 void check_steps(const ChannelSet& set, const Rounding& rounding, double step,
@@ -76,28 +97,38 @@ void check_steps(const ChannelSet& set, const Rounding& rounding, double step,
   const std::vector<double>& time = set.time;
   for (std::size_t i = 1; i < time.size() && faults.size() < kMostFaults; ++i) {
     const double got = time[i] - time[i - 1];
-    if (std::abs(got - step) <= rounding.near(time[i]) + kStepTolerance * step) continue;
+    const double unit = rounding.near(time[i]);
+    const double rounded = is_multiple(step, unit) ? 0.0 : unit;
+    if (std::abs(got - step) <= rounded + kStepTolerance * step) continue;
     if (got == 0.0) {
       faults.push_back(fault_at(set, i, fmt::format("time {} s is repeated", time[i])));
     } else if (got < 0.0) {
       faults.push_back(
           fault_at(set, i, fmt::format("time goes back from {} to {} s", time[i - 1], time[i])));
     } else {
-      faults.push_back(fault_at(
-          set, i,
-          fmt::format("time goes from {} to {} s, the step before is {:.6g} s: samples are "
-                      "missing or not evenly spaced",
-                      time[i - 1], time[i], step)));
+      faults.push_back(
+          fault_at(set, i,
+                   fmt::format("time goes from {} to {} s, the usual step is {:.6g} s: samples are "
+                               "missing or not evenly spaced",
+                               time[i - 1], time[i], step)));
     }
   }
 }
 
-double median_step(const std::vector<double>& time) {
+/// The step that is meant: gaps and repetitions make the mean one a wrong measure of it. Where nine
+/// in ten steps are alike it is theirs; where rounding makes them differ, the mean.
+double find_step(const std::vector<double>& time, double mean, double coarsest) {
   std::vector<double> steps(time.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time[i + 1] - time[i];
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  const double median = *middle;
+  if (!(median > 0.0)) return mean;
+  if (median > 4.0 * coarsest) return median;
+  const auto alike = std::count_if(steps.begin(), steps.end(), [&](double step) {
+    return std::abs(step - median) <= kStepTolerance * median;
+  });
+  return 10 * static_cast<std::size_t>(alike) >= 9 * steps.size() ? median : mean;
 }
 
 void check_numbers(const ChannelSet& set) {
@@ -124,24 +155,24 @@ std::string place_of(const ChannelSet& set, std::size_t sample) {
   return line > 0 ? fmt::format("line {}", line) : fmt::format("sample {}", sample);
 }
 
-TimeAxis fit_time_axis(const ChannelSet& set) {
+TimeAxis fit_time_axis(const ChannelSet& set, std::optional<double> expected_rate) {
   const std::vector<double>& time = set.time;
   if (time.size() < 2) throw core::InputError({set.source, 0}, "has fewer than two times");
   check_numbers(set);
   const Rounding rounding(time);
   const double duration = time.back() - time.front();
-  const auto steps = static_cast<double>(time.size() - 1);
-  double step = duration / steps;
-  std::vector<core::Fault> faults;
-  // Gaps make the mean step a wrong measure: the usual one tells where they are.
-  const double usual = median_step(time);
+  const double mean = duration / static_cast<double>(time.size() - 1);
   const double coarsest = std::max(rounding.near(time.front()), rounding.near(time.back()));
-  const bool usual_is_known = usual > 4.0 * coarsest;
-  check_steps(set, rounding, usual_is_known ? usual : step, faults);
-  if (faults.empty() && !(step > 0.0)) faults.push_back(fault_at(set, 0, "time does not go on"));
+  const double tolerance = 1e-9 + 1.01 * coarsest / duration;
+  const bool expected =
+      expected_rate && duration > 0.0 && std::abs(*expected_rate * mean - 1.0) <= tolerance;
+  const double step = expected ? 1.0 / *expected_rate : find_step(time, mean, coarsest);
+  std::vector<core::Fault> faults;
+  if (!(step > 0.0)) faults.push_back(fault_at(set, 0, "time does not go on"));
+  if (faults.empty()) check_steps(set, rounding, step, faults);
   for (std::size_t i = 0; i < time.size() && faults.empty(); ++i) {
-    const double even = time.front() + static_cast<double>(i) * step;
-    if (std::abs(time[i] - even) > coarsest + 0.5 * step) {
+    const double even = time.front() + static_cast<double>(i) * mean;
+    if (std::abs(time[i] - even) > coarsest + 0.5 * mean) {
       faults.push_back(fault_at(
           set, i,
           fmt::format("time {} s, evenly spaced samples would be at {:.9g} s: the sampling "
@@ -150,7 +181,7 @@ TimeAxis fit_time_axis(const ChannelSet& set) {
     }
   }
   if (!faults.empty()) throw core::InputError(std::move(faults));
-  return {time.front(), round_rate(1.0 / step, 1e-9 + 1.01 * coarsest / duration)};
+  return {time.front(), expected ? *expected_rate : round_rate(1.0 / mean, tolerance)};
 }
 
 TimeAxis find_time_axis(const ChannelSet& set, std::optional<double> given_rate,
@@ -161,7 +192,7 @@ TimeAxis find_time_axis(const ChannelSet& set, std::optional<double> given_rate,
   }
   TimeAxis axis{set.start, 0.0};
   if (!set.time.empty()) {
-    axis = fit_time_axis(set);
+    axis = fit_time_axis(set, given_rate ? given_rate : set.sampling_rate);
     if (set.sampling_rate) {
       warn(*set.sampling_rate, "the header says", axis.sampling_rate, "the time column is at",
            given_rate ? "neither" : "the time column", warnings);

@@ -24,7 +24,7 @@ struct TimeAxis {
 ///
 /// @throws core::InputError naming the line or sample where a time repeats, goes back, leaves a
 ///         gap, drifts or is no number
-TimeAxis fit_time_axis(const ChannelSet& set);
+TimeAxis fit_time_axis(const ChannelSet& set, std::optional<double> expected_rate = {});
 
 /// The axis of a channel set: from the given rate, else the time column, else the header. Warnings
 /// are added where two of them differ by more than 0.1 %.
