@@ -19,7 +19,7 @@ struct TraceSelection {
   /// dataset in HDF5 ("trace_force_x", "/run/data[:,1]"), "group/channel" in TDMS. A channel called
   /// "time" is taken as the time column [s]. Empty: every column or channel, by its own name;
   /// MATLAB and HDF5 files must be asked by name.
-  std::map<std::string, std::string> variables;
+  std::map<std::string, std::string> variables = {};
   /// HDF5 results with time histories: the point whose samples are read, counted from 0.
   std::optional<std::int64_t> point = std::nullopt;
   /// Part of every channel, by samples: the first one, counted from 0, and how many.

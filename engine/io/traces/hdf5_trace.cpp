@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kName = "HDF5";
 constexpr std::size_t kMostNames = 1000;
-constexpr std::size_t kLongestUnit = 64;
+constexpr std::size_t kLongestText = 64;
 
 /// The signature stands at byte 0, or after a block of 512, 1024, ... bytes of the user's.
 bool recognise(std::string_view bytes) {
@@ -102,7 +102,11 @@ class Reader {
   void check_numbers(hid_t dataset, const std::string& text) const {
     const hdf5::Handle type(H5Dget_type(dataset), "open a type");
     const H5T_class_t kind = H5Tget_class(type.get());
-    if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(fmt::format("{} holds no numbers", text));
+    // MATLAB keeps texts as whole numbers, and the shape of what is empty in place of its values.
+    if ((kind != H5T_INTEGER && kind != H5T_FLOAT) || text_of(dataset, "MATLAB_class") == "char") {
+      fail(fmt::format("{} holds no numbers", text));
+    }
+    if (H5Aexists(dataset, "MATLAB_empty") > 0) fail(fmt::format("{} is empty", text));
   }
 
   Run find_run(hid_t dataset, const VariableName& wanted, const std::string& text) const {
@@ -190,30 +194,31 @@ class Reader {
     return values;
   }
 
-  /// The attribute "units" (CF) or "unit", where it is a text.
+  /// The attribute "units" (CF) or "unit".
   static std::string unit_of(hid_t dataset) {
-    for (const char* name : {"units", "unit"}) {
-      if (H5Aexists(dataset, name) <= 0) continue;
-      const hdf5::Handle attribute(H5Aopen(dataset, name, H5P_DEFAULT), "open an attribute");
-      const hdf5::Handle type(H5Aget_type(attribute.get()), "open a type");
-      const hdf5::Handle space(H5Aget_space(attribute.get()), "open a dataspace");
-      if (H5Tget_class(type.get()) != H5T_STRING ||
-          H5Sget_simple_extent_npoints(space.get()) != 1) {
-        continue;
-      }
-      if (H5Tis_variable_str(type.get()) > 0) {
-        char* text = nullptr;
-        hdf5::check(H5Aread(attribute.get(), type.get(), &text), "read an attribute");
-        std::string unit = text == nullptr ? "" : text;
-        H5free_memory(text);
-        return unit.substr(0, kLongestUnit);
-      }
-      std::string text(H5Tget_size(type.get()), '\0');
-      if (text.size() > kLongestUnit) continue;
-      hdf5::check(H5Aread(attribute.get(), type.get(), text.data()), "read an attribute");
-      return text.substr(0, text.find('\0'));
+    const std::string units = text_of(dataset, "units");
+    return units.empty() ? text_of(dataset, "unit") : units;
+  }
+
+  /// A short text; empty where it is not there, long, or no text.
+  static std::string text_of(hid_t dataset, const char* name) {
+    if (H5Aexists(dataset, name) <= 0) return "";
+    const hdf5::Handle attribute(H5Aopen(dataset, name, H5P_DEFAULT), "open an attribute");
+    const hdf5::Handle type(H5Aget_type(attribute.get()), "open a type");
+    const hdf5::Handle space(H5Aget_space(attribute.get()), "open a dataspace");
+    if (H5Tget_class(type.get()) != H5T_STRING) return "";
+    if (H5Sget_simple_extent_npoints(space.get()) != 1) return "";
+    if (H5Tis_variable_str(type.get()) > 0) {
+      char* text = nullptr;
+      hdf5::check(H5Aread(attribute.get(), type.get(), &text), "read an attribute");
+      const std::string copy = text == nullptr ? "" : text;
+      H5free_memory(text);
+      return copy.size() > kLongestText ? "" : copy;
     }
-    return "";
+    std::string text(H5Tget_size(type.get()), '\0');
+    if (text.size() > kLongestText) return "";
+    hdf5::check(H5Aread(attribute.get(), type.get(), text.data()), "read an attribute");
+    return text.substr(0, text.find('\0'));
   }
 
   const Source& source_;

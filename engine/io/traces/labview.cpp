@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/traces/format.h"
+#include "io/traces/range.h"
 #include "io/traces/text_rows.h"
 #include "io/traces/text_table.h"
 
@@ -121,7 +122,7 @@ Segment read_segment_header(const Source& source, LineReader& reader, const File
     if (fields[0].starts_with(kEndOfHeader)) {
       if (!reader.next()) break;
       LineReader ahead(reader.rest());
-      while (ahead.next() && ahead.text().empty()) {
+      while (ahead.next() && is_blank_row(ahead.text(), header.dialect.separator)) {
       }
       place_columns(fields_of(reader, header.dialect), header, ahead.text(), segment);
       if (segment.channels.empty()) break;
@@ -278,14 +279,15 @@ class SegmentReader {
 
 /// Moves to the first line of the header of a segment, from the current line on. The tags of a
 /// header may come in any order, but LabVIEW writes Channels first.
-bool find_segment(LineReader& reader, bool first) {
+bool find_segment(LineReader& reader, const TextDialect& dialect, bool first) {
   bool special = false;
   do {
     const std::string_view line = trimmed(reader.text());
     if (line.starts_with("***Start_Special")) special = true;
     if (line.starts_with("***End_Special")) {
       special = false;
-    } else if (!special && !line.empty() && (first || line.starts_with(kSegmentBegins))) {
+    } else if (!special && !is_blank_row(line, dialect.separator) &&
+               (first || line.starts_with(kSegmentBegins))) {
       return true;
     }
   } while (reader.next());
@@ -297,7 +299,7 @@ TraceFile read(const Source& source, const TraceSelection& selection) {
   const FileHeader header = read_file_header(source, reader);
   SegmentReader segments(source, selection, header);
   int number = 0;
-  while ((number > 0 || reader.next()) && find_segment(reader, number == 0)) {
+  while ((number > 0 || reader.next()) && find_segment(reader, header.dialect, number == 0)) {
     const Segment segment = read_segment_header(source, reader, header);
     ++number;
     if (!selection.segment || *selection.segment == number) segments.read(reader, segment, number);
@@ -307,7 +309,9 @@ TraceFile read(const Source& source, const TraceSelection& selection) {
     throw core::InputError({source.path, 0}, fmt::format("has {} segments, there is no segment {}",
                                                          number, *selection.segment));
   }
-  return {kName, segments.take()};
+  TraceFile file{kName, segments.take()};
+  cut_to_range(file.channels, selection.range);
+  return file;
 }
 
 std::vector<std::string> variables(const Source& source) {

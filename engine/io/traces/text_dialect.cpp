@@ -35,17 +35,6 @@ std::vector<std::string_view> split_at_blanks(std::string_view line) {
   return fields;
 }
 
-bool all_numbers(std::string_view line, const TextDialect& dialect) {
-  const std::vector<std::string_view> fields = split(line, dialect.separator);
-  bool any = false;
-  for (const std::string_view field : fields) {
-    if (field.empty()) continue;  // a value that is missing
-    if (!number_of(field, dialect.decimal)) return false;
-    any = true;
-  }
-  return any;
-}
-
 }  // namespace
 
 bool LineReader::next() {
@@ -113,27 +102,43 @@ bool is_comment(std::string_view line) {
   return line.empty() || line.front() == '#' || line.front() == '%' || line.starts_with("//");
 }
 
+bool is_blank_row(std::string_view line, char separator) {
+  return std::all_of(line.begin(), line.end(),
+                     [&](char c) { return is_blank(c) || c == separator || c == '\r'; });
+}
+
+bool is_numbers(std::string_view line, const TextDialect& dialect) {
+  const std::vector<std::string_view> fields = split(line, dialect.separator);
+  bool any = false;
+  for (const std::string_view field : fields) {
+    if (field.empty()) continue;  // a value that is missing
+    if (!number_of(field, dialect.decimal)) return false;
+    any = true;
+  }
+  return any;
+}
+
 std::optional<TextDialect> dialect_of(std::string_view line) {
   if (is_comment(line)) return {};
   for (const char separator : {'\t', ';'}) {
     if (line.find(separator) == std::string_view::npos) continue;
     for (const char decimal : {'.', ','}) {
-      if (all_numbers(line, {separator, decimal})) return TextDialect{separator, decimal};
+      if (is_numbers(line, {separator, decimal})) return TextDialect{separator, decimal};
     }
     // "12; 13" is separated by semicolons; a tab may only be there to align.
     if (separator == ';') return {};
   }
   // "1,5 2,5" has decimal commas, "1, 2" and "1,5" commas between the fields.
   const bool blanks = without_blanks(line).find_first_of(" \t") != std::string_view::npos;
-  if (blanks && all_numbers(line, {' ', '.'})) return TextDialect{' ', '.'};
-  if (blanks && all_numbers(line, {' ', ','}) && line.find(", ") == std::string_view::npos) {
+  if (blanks && is_numbers(line, {' ', '.'})) return TextDialect{' ', '.'};
+  if (blanks && is_numbers(line, {' ', ','}) && line.find(", ") == std::string_view::npos) {
     return TextDialect{' ', ','};
   }
   if (line.find(',') != std::string_view::npos) {
-    if (all_numbers(line, {',', '.'})) return TextDialect{',', '.'};
+    if (is_numbers(line, {',', '.'})) return TextDialect{',', '.'};
     return {};
   }
-  if (all_numbers(line, {' ', '.'})) return TextDialect{' ', '.'};  // one column
+  if (is_numbers(line, {' ', '.'})) return TextDialect{' ', '.'};  // one column
   return {};
 }
 

@@ -48,6 +48,12 @@ std::optional<double> number_of(std::string_view field, char decimal);
 /// A blank line, or one that begins with #, % or //.
 bool is_comment(std::string_view line);
 
+/// A line of nothing but blanks and separators: spreadsheets leave such below a table.
+bool is_blank_row(std::string_view line, char separator);
+
+/// Whether a line is nothing but numbers, of which some may be missing.
+bool is_numbers(std::string_view line, const TextDialect& dialect);
+
 /// The dialect in which a line is nothing but numbers, if there is one.
 std::optional<TextDialect> dialect_of(std::string_view line);
 

@@ -12,6 +12,8 @@
 namespace millstudy::io {
 namespace {
 
+constexpr int kRowsLookedAt = 1000;
+
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -34,8 +36,8 @@ bool take_number(const char*& at, const char* end, char separator, double& value
 /// Reads the wanted columns of one row after another.
 class RowReader {
  public:
-  RowReader(const RowLayout& layout, TraceFaults& faults)
-      : layout_(layout), faults_(faults), numbers_(layout.columns.size()) {}
+  RowReader(const RowLayout& layout, std::string_view text, TraceFaults& faults)
+      : layout_(layout), text_(text), faults_(faults), numbers_(layout.columns.size()) {}
 
   /// The common case without a copy: points, no quotes, as many fields as there should be. Says
   /// nothing about a row that is different.
@@ -94,6 +96,7 @@ class RowReader {
 
  private:
   bool join(const std::vector<std::string_view>& fields, int line) {
+    if (previous_.empty()) previous_ = first_certain_row();
     const std::optional<JoinedRow> row = join_split_numbers(fields, layout_.fields, previous_);
     if (!row) {
       faults_.add(line,
@@ -108,10 +111,22 @@ class RowReader {
     return true;
   }
 
+  /// The first rows often have a whole number, the time: what is close to them comes after.
+  std::vector<double> first_certain_row() const {
+    LineReader reader(text_);
+    for (int i = 0; i < kRowsLookedAt && reader.next(); ++i) {
+      const std::optional<JoinedRow> row =
+          join_split_numbers(split(reader.text(), layout_.dialect.separator), layout_.fields, {});
+      if (row) return row->values;
+    }
+    return {};
+  }
+
   const RowLayout& layout_;
+  std::string_view text_;
   TraceFaults& faults_;
   std::vector<double> numbers_;
-  std::vector<double> previous_;
+  std::vector<double> previous_;  ///< with numbers in two parts only
   std::size_t guessed_ = 0;
 };
 
@@ -131,7 +146,7 @@ Rows read_rows(const std::string& file, LineReader& reader, const RowLayout& lay
   const auto first = static_cast<std::size_t>(range ? range->first : 0);
   const std::size_t count =
       range ? static_cast<std::size_t>(range->count) : std::numeric_limits<std::size_t>::max();
-  RowReader row(layout, faults);
+  RowReader row(layout, reader.rest(), faults);
   std::size_t index = 0;
   int last_line = -1;
   while (rows.size() < count && !faults.full() && reader.next()) {
@@ -139,7 +154,7 @@ Rows read_rows(const std::string& file, LineReader& reader, const RowLayout& lay
     const auto begins = [&](std::string_view end) { return text.starts_with(end); };
     if (std::any_of(layout.ends.begin(), layout.ends.end(), begins)) break;
     if (!row.read_plain(text)) {
-      if (is_comment(text)) continue;
+      if (is_comment(text) || is_blank_row(text, layout.dialect.separator)) continue;
       const bool cut = reader.unfinished() && !layout.dialect.split_numbers &&
                        split(text, layout.dialect.separator).size() < layout.fields;
       if (cut) {

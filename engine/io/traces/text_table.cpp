@@ -19,18 +19,22 @@ constexpr int kRowsLookedAt = 2000;
 
 /// A line of the header that may be a heading, without the sign that makes it a comment.
 std::string_view without_comment_sign(std::string_view line) {
-  line = trimmed(line);
+  const auto begin = line.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  line.remove_prefix(begin);
   while (!line.empty() && (line.front() == '#' || line.front() == '%')) line.remove_prefix(1);
   if (line.starts_with("//")) line.remove_prefix(2);
-  return trimmed(line);
+  return line;
 }
 
 /// Headings of a line; blanks between a name and its unit belong to it.
 std::vector<std::string> split_headings(std::string_view line, char separator) {
   std::vector<std::string> headings;
   for (const std::string_view field : split(line, separator)) {
-    const bool unit = !field.empty() && (field.front() == '[' || field.front() == '(');
-    if (separator == ' ' && unit && !headings.empty()) {
+    const auto is_unit = [](std::string_view text) {
+      return !text.empty() && (text.front() == '[' || text.front() == '(');
+    };
+    if (separator == ' ' && is_unit(field) && !headings.empty() && !is_unit(headings.back())) {
       headings.back() += ' ' + std::string(field);
     } else {
       headings.emplace_back(field);
@@ -81,8 +85,10 @@ std::vector<TextColumn> find_headings(const std::vector<std::string_view>& above
 }
 
 bool same_layout(std::string_view line, const TextDialect& dialect, std::size_t fields) {
-  const std::optional<TextDialect> other = dialect_of(line);
-  if (!other || other->separator != dialect.separator) return false;
+  const TextDialect other = {dialect.separator, ','};  // the first row may have no decimals
+  const bool possible =
+      is_numbers(line, dialect) || (dialect.separator != ',' && is_numbers(line, other));
+  if (!possible) return false;
   const std::size_t count = split(line, dialect.separator).size();
   // Numbers in two parts take fewer fields where they are whole.
   return count == fields ||
@@ -94,6 +100,8 @@ void refine(TextTable& table, std::size_t fields, std::size_t names) {
   TextDialect& dialect = table.dialect;
   LineReader reader(table.rows);
   std::size_t most = fields;
+  std::size_t rows = 0;
+  std::size_t longer = 0;
   bool commas = false;
   bool points = false;
   bool parts = true;
@@ -101,6 +109,8 @@ void refine(TextTable& table, std::size_t fields, std::size_t names) {
     if (is_comment(reader.text())) continue;
     const std::vector<std::string_view> row = split(reader.text(), dialect.separator);
     most = std::max(most, row.size());
+    ++rows;
+    longer += row.size() > names ? 1 : 0;
     for (const std::string_view field : row) {
       commas |= field.find(',') != std::string_view::npos;
       points |= field.find('.') != std::string_view::npos;
@@ -108,7 +118,7 @@ void refine(TextTable& table, std::size_t fields, std::size_t names) {
     }
   }
   if (dialect.separator == ',') {
-    dialect.split_numbers = parts && names > 0 && names < most && most <= 2 * names;
+    dialect.split_numbers = parts && names > 0 && most <= 2 * names && 2 * longer > rows;
   } else if (commas && !points) {
     dialect.decimal = ',';
   }
