@@ -13,7 +13,7 @@ namespace millstudy::io {
 namespace {
 
 constexpr std::size_t kMostWays = 4096;
-constexpr double kClearlyCloser = 10.0;
+constexpr double kClearlyCloser = 4.0;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -73,12 +73,6 @@ class Ways {
   std::vector<std::vector<double>> found_;
 };
 
-double distance(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
-  return sum;
-}
-
 }  // namespace
 
 bool is_number_part(std::string_view field) {
@@ -96,25 +90,33 @@ bool is_number_part(std::string_view field) {
 }
 
 std::optional<JoinedRow> join_split_numbers(std::span<const std::string_view> fields,
-                                            std::size_t count, std::span<const double> previous) {
+                                            std::size_t count, std::span<const double> expected) {
   const Ways ways(fields, count);
   if (ways.found().empty() || ways.too_many()) return {};
   if (ways.found().size() == 1) return JoinedRow{ways.found().front()};
-  if (previous.size() != count) return {};
+  if (expected.size() != count) return {};
+  // Only numbers in which the ways differ tell them apart.
+  const std::vector<std::vector<double>>& rows = ways.found();
   double best = std::numeric_limits<double>::infinity();
   double second = best;
-  const std::vector<double>* nearest = nullptr;
-  for (const std::vector<double>& row : ways.found()) {
-    const double far = distance(row, previous);
+  std::size_t nearest = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    double far = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool same = std::all_of(rows.begin(), rows.end(), [&](const std::vector<double>& row) {
+        return row[i] == rows.front()[i];
+      });
+      if (!same) far += std::abs(rows[k][i] - expected[i]);
+    }
     if (far < best) {
       second = std::exchange(best, far);
-      nearest = &row;
+      nearest = k;
     } else {
       second = std::min(second, far);
     }
   }
-  if (nearest == nullptr || second < kClearlyCloser * best) return {};
-  return JoinedRow{*nearest, true};
+  if (second < kClearlyCloser * best) return {};
+  return JoinedRow{rows[nearest], true};
 }
 
 }  // namespace millstudy::io

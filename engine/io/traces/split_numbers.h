@@ -11,21 +11,21 @@ namespace millstudy::io {
 /// One row of a file that writes decimals with a comma and separates by commas.
 struct JoinedRow {
   std::vector<double> values;
-  bool guessed = false;  ///< by the row before: whole numbers among others leave more than one way
+  bool guessed = false;  ///< whole numbers among others leave more than one way: the closest
 };
 
 /// Puts whole parts and decimals together: "0", "000000", "-0", "0131" are 0.0 and -0.0131.
 ///
 /// A number without decimals takes one field only. A sign begins a number, decimals have none, and
-/// a whole part has no leading zeros; of several ways that are left the one closest to the row
-/// before is taken, if it is ten times closer than the next.
+/// a whole part has no leading zeros; of several ways that are left the one closest to what is
+/// expected is taken, if it is four times closer than the next.
 ///
 /// @param fields    of the row
 /// @param count     numbers there must be
-/// @param previous  numbers of the row before; empty: the first
+/// @param expected  about what the numbers are, by the rows around; empty: not known
 /// @return nullopt if no way or more than one is left
 std::optional<JoinedRow> join_split_numbers(std::span<const std::string_view> fields,
-                                            std::size_t count, std::span<const double> previous);
+                                            std::size_t count, std::span<const double> expected);
 
 /// Whether a field can be a part of such a number: digits, perhaps a sign or an exponent.
 bool is_number_part(std::string_view field);

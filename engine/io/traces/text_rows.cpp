@@ -13,6 +13,7 @@ namespace millstudy::io {
 namespace {
 
 constexpr int kRowsLookedAt = 1000;
+constexpr int kNearRows = 3;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -36,8 +37,8 @@ bool take_number(const char*& at, const char* end, char separator, double& value
 /// Reads the wanted columns of one row after another.
 class RowReader {
  public:
-  RowReader(const RowLayout& layout, std::string_view text, TraceFaults& faults)
-      : layout_(layout), text_(text), faults_(faults), numbers_(layout.columns.size()) {}
+  RowReader(const RowLayout& layout, TraceFaults& faults)
+      : layout_(layout), faults_(faults), numbers_(layout.columns.size()) {}
 
   /// The common case without a copy: points, no quotes, as many fields as there should be. Says
   /// nothing about a row that is different.
@@ -67,10 +68,10 @@ class RowReader {
     return at == end || layout_.more_fields;
   }
 
-  /// Any row; what is wrong with it goes to the faults.
-  bool read(std::string_view row, int line) {
+  /// Any row; what is wrong with it goes to the faults. The rest of the text comes after it.
+  bool read(std::string_view row, int line, std::string_view rest) {
     const std::vector<std::string_view> fields = split(row, layout_.dialect.separator);
-    if (layout_.dialect.split_numbers) return join(fields, line);
+    if (layout_.dialect.split_numbers) return join(fields, line, rest);
     if (fields.size() < layout_.fields ||
         (fields.size() > layout_.fields && !layout_.more_fields)) {
       faults_.add(line,
@@ -95,9 +96,9 @@ class RowReader {
   std::size_t guessed() const { return guessed_; }
 
  private:
-  bool join(const std::vector<std::string_view>& fields, int line) {
-    if (previous_.empty()) previous_ = first_certain_row();
-    const std::optional<JoinedRow> row = join_split_numbers(fields, layout_.fields, previous_);
+  bool join(const std::vector<std::string_view>& fields, int line, std::string_view rest) {
+    std::optional<JoinedRow> row = join_split_numbers(fields, layout_.fields, {});
+    if (!row) row = join_split_numbers(fields, layout_.fields, expected_row(rest));
     if (!row) {
       faults_.add(line,
                   fmt::format("{} fields cannot be read as {} numbers with decimal commas, or "
@@ -111,19 +112,24 @@ class RowReader {
     return true;
   }
 
-  /// The first rows often have a whole number, the time: what is close to them comes after.
-  std::vector<double> first_certain_row() const {
-    LineReader reader(text_);
-    for (int i = 0; i < kRowsLookedAt && reader.next(); ++i) {
+  /// Between the row before and the next one that can be read in one way only, if that is near.
+  std::vector<double> expected_row(std::string_view rest) const {
+    LineReader reader(rest);
+    const int most = previous_.empty() ? kRowsLookedAt : kNearRows;
+    for (int i = 0; i < most && reader.next(); ++i) {
       const std::optional<JoinedRow> row =
           join_split_numbers(split(reader.text(), layout_.dialect.separator), layout_.fields, {});
-      if (row) return row->values;
+      if (!row) continue;
+      std::vector<double> expected = row->values;
+      for (std::size_t k = 0; k < previous_.size(); ++k) {
+        expected[k] = 0.5 * (expected[k] + previous_[k]);
+      }
+      return expected;
     }
-    return {};
+    return previous_;
   }
 
   const RowLayout& layout_;
-  std::string_view text_;
   TraceFaults& faults_;
   std::vector<double> numbers_;
   std::vector<double> previous_;  ///< with numbers in two parts only
@@ -146,7 +152,7 @@ Rows read_rows(const std::string& file, LineReader& reader, const RowLayout& lay
   const auto first = static_cast<std::size_t>(range ? range->first : 0);
   const std::size_t count =
       range ? static_cast<std::size_t>(range->count) : std::numeric_limits<std::size_t>::max();
-  RowReader row(layout, reader.rest(), faults);
+  RowReader row(layout, faults);
   std::size_t index = 0;
   int last_line = -1;
   while (rows.size() < count && !faults.full() && reader.next()) {
@@ -162,7 +168,7 @@ Rows read_rows(const std::string& file, LineReader& reader, const RowLayout& lay
             fmt::format("the end of the file cuts line {} off: it is left out", reader.number()));
         break;
       }
-      if (!row.read(text, reader.number())) continue;
+      if (!row.read(text, reader.number(), reader.rest())) continue;
     }
     if (index++ < first) continue;
     if (rows.size() == 0) reserve(rows, reader.rest(), text, std::min(most, count));
@@ -179,8 +185,8 @@ Rows read_rows(const std::string& file, LineReader& reader, const RowLayout& lay
   }
   if (row.guessed() > 0) {
     rows.remarks.push_back(fmt::format(
-        "{} rows with whole numbers among decimal commas were read as what is close to the row "
-        "before: check them, or export with semicolons or tabs",
+        "{} rows with whole numbers among decimal commas were read as what is close to the rows "
+        "around: check them, or export with semicolons or tabs",
         row.guessed()));
   }
   return rows;

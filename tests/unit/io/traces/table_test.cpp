@@ -218,9 +218,9 @@ TEST(SplitNumbers, FindsTheOnlyWay) {
   EXPECT_FALSE(joined("1,x", 1));
 }
 
-TEST(SplitNumbers, TakesTheWayCloseToTheRowBeforeAndSaysSo) {
-  const std::vector<double> before = {1.19, 3.05};
-  const auto row = join_split_numbers(split("1,2,3", ','), 2, before);
+TEST(SplitNumbers, TakesTheWayCloseToWhatIsExpectedAndSaysSo) {
+  const std::vector<double> near = {1.19, 3.05};
+  const auto row = join_split_numbers(split("1,2,3", ','), 2, near);
   ASSERT_TRUE(row);
   EXPECT_TRUE(row->guessed);
   EXPECT_EQ(row->values, (std::vector<double>{1.2, 3.0}));
