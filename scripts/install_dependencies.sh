@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(
-  ca-certificates cmake g++ git ninja-build pkg-config
+  ca-certificates clang cmake g++ git libclang-rt-14-dev ninja-build pkg-config
   libbenchmark-dev libceres-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev libhdf5-dev libmatio-dev
   libssl-dev libtbb-dev
   libtomlplusplus-dev nlohmann-json3-dev

@@ -65,6 +65,7 @@ class Preparation {
     for (const Channel& channel : set_.channels) {
       known += (known.empty() ? "" : ", ") + channel.name;
     }
+    bool any = false;
     for (int i = 0; i < 3; ++i) {
       if (!options_.axes.has_axis(i)) continue;
       const std::string& name = options_.axes.axes[i].channel;
@@ -74,7 +75,8 @@ class Preparation {
         continue;
       }
       const std::size_t samples = channels_[i]->samples.size();
-      if (samples_ == 0) samples_ = samples;
+      if (!any) samples_ = samples;
+      any = true;
       if (samples != samples_) {
         fault(fmt::format("channel {} has {} samples, another has {}", name, samples, samples_));
       }
@@ -103,7 +105,7 @@ class Preparation {
                         from, to, axis.start, data_end));
       }
       begin_ = first_at(axis, from, slack);
-      end_ = std::min(first_at(axis, to, slack), samples_);
+      end_ = std::max(first_at(axis, to, slack), begin_);
     }
     if (end_ - begin_ < kFewestSamples) {
       fault(fmt::format("{} samples are too few: there must be at least {}", end_ - begin_,
@@ -111,10 +113,10 @@ class Preparation {
     }
   }
 
-  /// First sample that is not before a time.
-  static std::size_t first_at(const TimeAxis& axis, double time, double slack) {
+  /// First sample that is not before a time; samples_ where there is none.
+  std::size_t first_at(const TimeAxis& axis, double time, double slack) const {
     const double index = std::ceil((time - axis.start - slack) * axis.sampling_rate);
-    return index > 0.0 ? static_cast<std::size_t>(index) : 0;
+    return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(samples_)));
   }
 
   /// [N] per unit of a channel, with its sign.
