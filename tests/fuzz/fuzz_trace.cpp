@@ -72,10 +72,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (needs_file()) {
     const io::Source source{write_file(bytes), bytes};
     switch (size % 4) {  // each takes a process
-      case 0: read(source, {.variables = {{"Fx", "Fx"}, {"Fy", "run.Fy"}}}); break;
-      case 1: read(source, {.variables = {{"Fx", "data(:,2)"}, {"time", "data[0,:]"}}}); break;
-      case 2: read(source, {.point = 1}); break;
-      default: allow_input_errors([&] { io::MILLSTUDY_FORMAT.variables(source); });
+      case 0:
+        read(source, {.variables = {{"Fx", "Fx"}, {"Fy", "run.Fy"}}});
+        break;
+      case 1:
+        read(source, {.variables = {{"Fx", "data(:,2)"}, {"time", "data[0,:]"}}});
+        break;
+      case 2:
+        read(source, {.point = 1});
+        break;
+      default:
+        allow_input_errors([&] { io::MILLSTUDY_FORMAT.variables(source); });
     }
     return 0;
   }

@@ -37,7 +37,7 @@ def run(folder, name, seconds):
     found.mkdir(parents=True, exist_ok=True)
     # A request for too much memory is refused there.
     library = ["-malloc_limit_mb=1000000"] if contained else []
-    command = [folder / f"fuzz_{name}", *library, f"-max_total_time={seconds}", "-timeout=20", "-rss_limit_mb=2048",
+    command = [folder / f"fuzz_{name}", *library, f"-max_total_time={seconds}", "-timeout=60", "-rss_limit_mb=2048",
                "-max_len=16384", f"-artifact_prefix={found}/", work, HERE / "corpus" / name]
     done = subprocess.run([str(word) for word in command], text=True, errors="replace", capture_output=True,
                           env={**os.environ, "ASAN_OPTIONS": "allocator_may_return_null=1"})

@@ -32,7 +32,7 @@ constexpr bool kSanitized = false;
 #endif
 
 constexpr rlim_t kMostBytes = 6'000'000'000;  // more than twice kMostTraceValues
-constexpr rlim_t kSecondsAtLeast = 10;        // of computing time, and one for every
+constexpr rlim_t kSecondsAtLeast = 3;         // of computing time, and one for every
 constexpr std::size_t kBytesPerSecond = 5'000'000;
 
 enum class Answer : std::uint8_t { kTrace = 1, kFaults = 2, kNoMemory = 3, kOther = 4 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostWays = 4096;
 constexpr double kClearlyCloser = 4.0;
+constexpr double kSmallestChange = 1e-12;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -73,6 +73,19 @@ class Ways {
   std::vector<std::vector<double>> found_;
 };
 
+/// How far a row is from what is expected, in typical changes from row to row, over the numbers in
+/// which it differs from another row: the noise of the others says nothing.
+double distance(std::span<const double> row, std::span<const double> other,
+                const ExpectedRow& expected) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == other[i]) continue;
+    const double change = expected.changes.empty() ? 1.0 : expected.changes[i];
+    sum += std::abs(row[i] - expected.values[i]) / std::max(change, kSmallestChange);
+  }
+  return sum;
+}
+
 }  // namespace
 
 bool is_number_part(std::string_view field) {
@@ -90,33 +103,21 @@ bool is_number_part(std::string_view field) {
 }
 
 std::optional<JoinedRow> join_split_numbers(std::span<const std::string_view> fields,
-                                            std::size_t count, std::span<const double> expected) {
+                                            std::size_t count, const ExpectedRow& expected) {
   const Ways ways(fields, count);
   if (ways.found().empty() || ways.too_many()) return {};
   if (ways.found().size() == 1) return JoinedRow{ways.found().front()};
-  if (expected.size() != count) return {};
-  // Only numbers in which the ways differ tell them apart.
+  if (expected.values.size() != count) return {};
   const std::vector<std::vector<double>>& rows = ways.found();
-  double best = std::numeric_limits<double>::infinity();
-  double second = best;
-  std::size_t nearest = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    double far = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool same = std::all_of(rows.begin(), rows.end(), [&](const std::vector<double>& row) {
-        return row[i] == rows.front()[i];
-      });
-      if (!same) far += std::abs(rows[k][i] - expected[i]);
-    }
-    if (far < best) {
-      second = std::exchange(best, far);
-      nearest = k;
-    } else {
-      second = std::min(second, far);
-    }
+  // The best of all in every comparison, and clearly so; there may be none.
+  for (const std::vector<double>& row : rows) {
+    const bool clear = std::all_of(rows.begin(), rows.end(), [&](const auto& other) {
+      return &other == &row ||
+             distance(other, row, expected) >= kClearlyCloser * distance(row, other, expected);
+    });
+    if (clear) return JoinedRow{row, true};
   }
-  if (second < kClearlyCloser * best) return {};
-  return JoinedRow{rows[nearest], true};
+  return {};
 }
 
 }  // namespace millstudy::io

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 #include "io/traces/split_numbers.h"
 
@@ -14,6 +16,7 @@ namespace {
 
 constexpr int kRowsLookedAt = 1000;
 constexpr int kNearRows = 3;
+constexpr double kNewest = 0.05;  // weight of the newest change
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -106,33 +109,47 @@ class RowReader {
                               fields.size(), layout_.fields));
       return false;
     }
-    previous_ = row->values;
+    follow(row->values);
     guessed_ += row->guessed ? 1 : 0;
     for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = previous_[layout_.columns[i]];
     return true;
   }
 
+  /// Keeps a row and the typical change from row to row.
+  void follow(const std::vector<double>& row) {
+    if (!previous_.empty()) {
+      const bool first = changes_.empty();
+      changes_.resize(row.size());
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const double change = std::abs(row[i] - previous_[i]);
+        changes_[i] += (change - changes_[i]) * (first ? 1.0 : kNewest);
+      }
+    }
+    previous_ = row;
+  }
+
   /// Between the row before and the next one that can be read in one way only, if that is near.
-  std::vector<double> expected_row(std::string_view rest) const {
+  ExpectedRow expected_row(std::string_view rest) const {
     LineReader reader(rest);
     const int most = previous_.empty() ? kRowsLookedAt : kNearRows;
     for (int i = 0; i < most && reader.next(); ++i) {
       const std::optional<JoinedRow> row =
           join_split_numbers(split(reader.text(), layout_.dialect.separator), layout_.fields, {});
       if (!row) continue;
-      std::vector<double> expected = row->values;
+      std::vector<double> values = row->values;
       for (std::size_t k = 0; k < previous_.size(); ++k) {
-        expected[k] = 0.5 * (expected[k] + previous_[k]);
+        values[k] = 0.5 * (values[k] + previous_[k]);
       }
-      return expected;
+      return {std::move(values), changes_};
     }
-    return previous_;
+    return {previous_, changes_};
   }
 
   const RowLayout& layout_;
   TraceFaults& faults_;
   std::vector<double> numbers_;
   std::vector<double> previous_;  ///< with numbers in two parts only
+  std::vector<double> changes_;
   std::size_t guessed_ = 0;
 };
 

@@ -176,8 +176,8 @@ TEST(PrepareTrace, RefusesShortRecordsUnequalColumnsAndMissingChannels) {
   EXPECT_TRUE(contains(fault_of(set, options("Fx", "Fy", "")),
                        "channel Fy has 99 samples, another has 100"));
   set.channels[0].samples.clear();
-  EXPECT_TRUE(contains(fault_of(set, options("Fx", "Fy", "")),
-                       "channel Fy has 99 samples, another has 0"));
+  EXPECT_TRUE(
+      contains(fault_of(set, options("Fx", "Fy", "")), "channel Fy has 99 samples, another has 0"));
   EXPECT_TRUE(contains(fault_of(set, options("Fx", "F7", "F8")), "no channel F7 for axis y"));
   EXPECT_TRUE(contains(fault_of(set, options("Fx", "F7", "F8")), "no channel F8 for axis z"));
   set = ramps();

@@ -98,6 +98,23 @@ TEST_F(Hdf5Trace, SaysWhatIsThere) {
                        "has no points"));
 }
 
+TEST(Hdf5Limit, RefusesMoreValuesThanFitButReadsAPartOfThem) {
+  const TestFile disk;
+  {
+    const hdf5::Handle file(H5Fcreate(disk.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                            "create a file");
+    // Chunks that nobody wrote take no space.
+    hdf5::create_dataset(file.get(), "Fx", H5T_IEEE_F64LE, {300'000'000}, {.chunk = {100'000}});
+  }
+  EXPECT_LT(std::filesystem::file_size(disk.path()), 1'000'000u);
+  TraceSelection selection{.variables = {{"Fx", "Fx"}}};
+  EXPECT_TRUE(contains(error_text([&] { read_trace_file(disk.path(), selection); }),
+                       "more than 200000000 values"));
+  selection.range = TraceSelection::Range{299'999'000, 1000};
+  EXPECT_EQ(read_trace_file(disk.path(), selection).channels.channels[0].samples,
+            std::vector<double>(1000, 0.0));
+}
+
 TEST_F(Hdf5Trace, ATruncatedFileIsRefused) {
   std::ifstream in(disk_.path(), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});

@@ -220,12 +220,16 @@ TEST(SplitNumbers, FindsTheOnlyWay) {
 
 TEST(SplitNumbers, TakesTheWayCloseToWhatIsExpectedAndSaysSo) {
   const std::vector<double> near = {1.19, 3.05};
-  const auto row = join_split_numbers(split("1,2,3", ','), 2, near);
+  const auto row = join_split_numbers(split("1,2,3", ','), 2, {near, {}});
   ASSERT_TRUE(row);
   EXPECT_TRUE(row->guessed);
   EXPECT_EQ(row->values, (std::vector<double>{1.2, 3.0}));
+  // A clock that steps by 0.01 tells better than a force that jumps by tens.
+  const auto jump = join_split_numbers(split("3,316,498", ','), 2, {{2.99, 380.0}, {0.01, 30.0}});
+  ASSERT_TRUE(jump);
+  EXPECT_EQ(jump->values, (std::vector<double>{3.0, 316.498}));
   const std::vector<double> between = {1.1, 2.6};
-  EXPECT_FALSE(join_split_numbers(split("1,2,3", ','), 2, between));
+  EXPECT_FALSE(join_split_numbers(split("1,2,3", ','), 2, {between, {}}));
 }
 
 }  // namespace
