@@ -67,9 +67,8 @@ FileHeader read_file_header(const Source& source, LineReader& reader) {
     }
     const std::vector<std::string_view> fields = fields_of(reader, header.dialect);
     if (fields.empty()) continue;
-    // The decimal comma of a file with commas between fields reads "Decimal_Separator,,".
     if (fields[0] == "Decimal_Separator") {
-      header.dialect.decimal = reader.text().ends_with(',') ? ',' : '.';
+      header.dialect.decimal = second(fields) == "," ? ',' : '.';
     } else if (fields[0] == "X_Columns") {
       header.times = second(fields) == "No"      ? Times::kNone
                      : second(fields) == "Multi" ? Times::kEach

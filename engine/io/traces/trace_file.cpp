@@ -34,7 +34,8 @@ const char* advice_on(std::string_view bytes) {
          "or 7.3, HDF5, NI TDMS";
 }
 
-void check_selection(const Source& source, const TraceSelection& selection) {
+void check_selection(const Source& source, const TraceFormat& format,
+                     const TraceSelection& selection) {
   const auto fail = [&](std::string text) {
     throw core::InputError({source.path, 0}, std::move(text));
   };
@@ -44,6 +45,12 @@ void check_selection(const Source& source, const TraceSelection& selection) {
   }
   if (selection.point && *selection.point < 0) {
     fail(fmt::format("point = {} must be >= 0", *selection.point));
+  }
+  if (selection.point && &format != &kHdf5) {
+    fail(fmt::format("is a {} file: only results in HDF5 have points", format.name));
+  }
+  if (selection.segment && &format != &kLabview) {
+    fail(fmt::format("is a {} file: only LabVIEW .lvm files have segments", format.name));
   }
 }
 
@@ -80,8 +87,9 @@ const TraceFormat& recognise_trace_format(const Source& source) {
 }
 
 TraceFile read_trace(const Source& source, const TraceSelection& selection) {
-  check_selection(source, selection);
-  TraceFile file = recognise_trace_format(source).read(source, selection);
+  const TraceFormat& format = recognise_trace_format(source);
+  check_selection(source, format, selection);
+  TraceFile file = format.read(source, selection);
   file.channels.source = source.path;
   check_result(source, selection, file);
   return file;

@@ -186,6 +186,12 @@ TEST(TraceFile, SaysWhatAFileIsThatIsNoTrace) {
   EXPECT_TRUE(contains(error_text([] { read_trace_file("/dev/zero"); }), "it is not a file"));
 }
 
+TEST(TraceFile, RefusesSelectionsThatItsFormatDoesNotHave) {
+  EXPECT_TRUE(contains(fault("Fx\n1\n2\n", {.point = 1}), "only results in HDF5 have points"));
+  EXPECT_TRUE(
+      contains(fault("Fx\n1\n2\n", {.segment = 1}), "only LabVIEW .lvm files have segments"));
+}
+
 TEST(TraceFile, ListsWhatAFileOffers) {
   const TestFile file("time,Fx\ns,N\n0,1\n1,2\n");
   EXPECT_EQ(trace_variables(file.path()), (std::vector<std::string>{"time", "Fx"}));
