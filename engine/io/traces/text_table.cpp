@@ -212,7 +212,8 @@ TextTable find_table(const Source& source) {
     if (above.size() > 2) above.erase(above.begin());
   }
   throw core::InputError({source.path, 0},
-                         fmt::format("has no rows of numbers in its first {} lines",
+                         fmt::format("has no rows of numbers in its first {} lines; a column of "
+                                     "clock times or words must be left out",
                                      std::min(reader.number(), kMostHeaderLines)));
 }
 
