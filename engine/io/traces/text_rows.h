@@ -34,7 +34,7 @@ struct Rows {
 /// comments are passed over; a last line that the end of the file cuts off is left out, with a
 /// remark. Faults go to the list, reading stops when that is full.
 ///
-/// About 250 MB/s for a file of four columns of which all are wanted.
+/// About 240 MB/s for a file of four columns of which all are wanted.
 ///
 /// @param reader  stands before the first row; afterwards on the line that ended the rows
 /// @throws core::InputError where more than kMostTraceValues values are wanted
