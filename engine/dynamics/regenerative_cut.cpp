@@ -56,8 +56,26 @@ bool RegenerativeCut::has_closed_form(int flute, const force::EdgePiece& piece, 
 }
 
 Eigen::Matrix2d RegenerativeCut::stiffness(int flute, double tip_angle) const {
+  const double tangent = edges_->flutes()[flute].helix_tangent;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for_each_node(flute, tip_angle, [&](double, const Eigen::Matrix2d& a) { sum += a; });
+  const auto add = [&](double z1, double z2) {
+    for (const force::EdgePiece& piece : edges_->pieces()) {
+      const double from = std::max(z1, piece.bottom), to = std::min(z2, piece.top);
+      if (from >= to) continue;
+      if (!piece.segment.is_cylinder() || edges_->variation().with_height()) {
+        for_each_node_of(flute, piece, tip_angle, from, to,
+                         [&](double, const Eigen::Matrix2d& a) { sum += a; });
+        continue;
+      }
+      // (F8): closed form at any lag.
+      const force::EdgeNode middle = edges_->node(piece, tangent, 0.5 * (from + to), to - from);
+      const double turn = tangent * edges_->envelope().lag_slope(from) * (to - from);
+      const double twice = 2.0 * (tip_angle - tangent * middle.lag), share = force::sinc(turn);
+      const auto [t, r] = weights(flute, middle);
+      sum += directional(t, r, {1.0, share * std::cos(twice), share * std::sin(twice)});
+    }
+  };
+  force::for_each_engaged_interval(*edges_, tangent, swept_.arc(), tip_angle, add);
   return sum;
 }
 

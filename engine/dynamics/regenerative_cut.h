@@ -48,19 +48,14 @@ class RegenerativeCut {
   /// Calls visit(lag per tangent, stiffness) for the nodes of a flute in cut: (D6) one by one.
   template <class Visit>
   void for_each_node(int flute, double tip_angle, const Visit& visit) const {
-    const double tangent = edges_->flutes()[flute].helix_tangent;
-    force::for_each_engaged_interval(
-        *edges_, tangent, swept_.arc(), tip_angle, [&](double z1, double z2) {
-          for (const force::EdgePiece& piece : edges_->pieces()) {
-            const double from = std::max(z1, piece.bottom), to = std::min(z2, piece.top);
-            if (from >= to) continue;
-            edges_->for_each_node(piece, tangent, from, to, [&](const force::EdgeNode& node) {
-              const double twice = 2.0 * (tip_angle - tangent * node.lag);
-              const auto [t, r] = weights(flute, node);
-              visit(node.lag, directional(t, r, {1.0, std::cos(twice), std::sin(twice)}));
-            });
-          }
-        });
+    const auto add = [&](double z1, double z2) {
+      for (const force::EdgePiece& piece : edges_->pieces()) {
+        const double from = std::max(z1, piece.bottom), to = std::min(z2, piece.top);
+        if (from < to) for_each_node_of(flute, piece, tip_angle, from, to, visit);
+      }
+    };
+    force::for_each_engaged_interval(*edges_, edges_->flutes()[flute].helix_tangent, swept_.arc(),
+                                     tip_angle, add);
   }
 
  private:
@@ -68,6 +63,16 @@ class RegenerativeCut {
     double tangential;  ///< Ktc dz [N/mm]
     double radial;      ///< (Krc sin(kappa) + Kac cos(kappa)) dz [N/mm]
   };
+  template <class Visit>
+  void for_each_node_of(int flute, const force::EdgePiece& piece, double tip_angle, double z1,
+                        double z2, const Visit& visit) const {
+    const double tangent = edges_->flutes()[flute].helix_tangent;
+    edges_->for_each_node(piece, tangent, z1, z2, [&](const force::EdgeNode& node) {
+      const double twice = 2.0 * (tip_angle - tangent * node.lag);
+      const auto [t, r] = weights(flute, node);
+      visit(node.lag, directional(t, r, {1.0, std::cos(twice), std::sin(twice)}));
+    });
+  }
   Weights weights(int flute, const force::EdgeNode& node) const;
   bool has_closed_form(int flute, const force::EdgePiece& piece, double z1, double z2) const;
   Eigen::Matrix2d swept_nodes(int flute, const force::EdgePiece& piece, double tip_angle, double z1,
