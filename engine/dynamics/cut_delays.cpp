@@ -125,7 +125,7 @@ AveragedGains averages(const Source& source, int intervals) {
   return all;
 }
 
-/// Where an end of an edge or a corner of the envelope enters or leaves.
+/// Times at which an end of an edge or a corner of the envelope enters or leaves, and 0.
 std::vector<double> breaks(const Source& source) {
   const force::CuttingEdges& edges = source.cut.edges();
   const double period = source.cut.period_angle();
@@ -142,14 +142,10 @@ std::vector<double> breaks(const Source& source) {
     }
   }
   std::sort(all.begin(), all.end());
-  std::vector<double> distinct;
+  const double gap = 1e-9 * source.period();
+  std::vector<double> distinct = {0.0};
   for (const double t : all) {
-    const double gap = 1e-9 * source.period();
-    if (t > source.period() - gap || (distinct.empty() ? t < gap : t - distinct.back() < gap)) {
-      if (distinct.empty() || distinct.front() != 0.0) distinct.insert(distinct.begin(), 0.0);
-      continue;
-    }
-    distinct.push_back(t);
+    if (t - distinct.back() > gap && t < source.period() - gap) distinct.push_back(t);
   }
   return distinct;
 }
