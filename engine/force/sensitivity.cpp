@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "force/gathered_nodes.h"
 #include "force/slice.h"
+#include "force/stretch_moments.h"
 #include "force/tooth_integral.h"
 
 namespace millstudy::force {
@@ -40,6 +41,8 @@ struct ForceSensitivity::Tooth {
   double other_position = 0.0;     ///< ahead of flute 0, more than `position`
   std::array<double, 2> offset{};  ///< of the runout
   bool with_exponent = false;
+  double cos_tip = 0.0;
+  double sin_tip = 0.0;
 
   /// @param m  teeth since it passed, 1 .. N
   void follow(int m) {
@@ -120,6 +123,39 @@ struct ForceSensitivity::Tooth {
       sum.exponent[row] -= grown[row] * area * log_size;
     }
   }
+  /// (F31): a whole stretch of an edge, all flutes of one helix, no size effect.
+  void add(const MomentPair& moments, const Line& line, bool with_slopes) {
+    for (int power = 0; power < 2; ++power) {  // of z
+      if (power == 1 && !with_slopes) break;
+      const double* k = &coefficients.k[6 * power];
+      const UnitForces by_a = chip_forces(moments[power], 1.0, 0.0, cos_tip, sin_tip);
+      const UnitForces by_b = chip_forces(moments[power], 0.0, 1.0, cos_tip, sin_tip);
+      const UnitForces edge = edge_forces(moments[power], cos_tip, sin_tip);
+      std::array<double, 3> of_a{}, of_b{}, force{};
+      for (int c = 0; c < kColumns; ++c) {
+        for (int row = 0; row < 3; ++row) {
+          const double chip = line.a * by_a[c][row] + line.b * by_b[c][row];
+          sum.coefficient[6 * power + c][row] += chip;
+          sum.coefficient[6 * power + kColumns + c][row] += edge[c][row];
+          of_a[row] += k[c] * by_a[c][row];
+          of_b[row] += k[c] * by_b[c][row];
+          force[row] += k[c] * chip + k[kColumns + c] * edge[c][row];
+        }
+      }
+      const double ratio = line.ratio;
+      const double by_angle_a = ratio * feed.per_tooth * cos_tip;
+      const double by_angle_b = ratio * feed.per_tooth * sin_tip;
+      const std::array<double, 3> turned = {force[1], -force[0], 0.0};
+      for (int row = 0; row < 3; ++row) {
+        sum.force[row] += force[row];
+        sum.angle[row] += turned[row] + of_a[row] * by_angle_a + of_b[row] * by_angle_b;
+        sum.feed[row] += ratio * (of_a[row] * sin_tip - of_b[row] * cos_tip);
+        sum.runout[0][row] += of_a[row] * line.cosines + of_b[row] * line.sines;
+        sum.runout[1][row] += of_a[row] * line.sines - of_b[row] * line.cosines;
+      }
+    }
+  }
+
   /// Integrand per node variable p at a height, and how fast the lag grows with p.
   struct Density {
     std::array<double, 3> force{};
@@ -172,40 +208,98 @@ struct ForceSensitivity::Tooth {
 };
 
 ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagement& engagement,
-                                   bool gather)
+                                   Wanted wanted)
     : edges_(cutter, engagement.axial_depth, {}),
       law_(edges_),
       arc_(engagement.arc()),
-      gather_(gather),
+      wanted_(wanted),
+      by_moments_(!wanted.size_effect && !edges_.variable_helix()),
+      lines_(law_.reaches()),
       reaches_(law_.reaches()) {
   if (cutter.runout.tilt != 0.0) {
     throw core::InputError("runout tilt must be 0 here: derivatives are those of parallel axes");
   }
+  const cutter::Runout& runout = cutter.runout;
+  offset_ = {runout.offset * std::cos(runout.angle), runout.offset * std::sin(runout.angle)};
+  for (const cutter::Flute& flute : edges_.flutes()) {
+    tips_.push_back({std::cos(flute.position), std::sin(flute.position)});
+  }
+  if (!by_moments_) return;
+  const double tangent = edges_.flutes().front().helix_tangent;
+  for (const EdgePiece& piece : edges_.pieces()) {
+    whole_.push_back(moments_of(edges_, piece, tangent, piece.bottom, piece.top));
+    ends_.push_back({lag_at(tangent, piece.bottom), lag_at(tangent, piece.top)});
+  }
+}
+
+std::array<double, 2> ForceSensitivity::lag_at(double tangent, double z) const {
+  const double lag = tangent * edges_.envelope().lag(z);
+  return {std::cos(lag), std::sin(lag)};
+}
+
+/// The reach that decides the chip at a height.
+int ForceSensitivity::smallest_at(const Tooth& tooth, double z) {
+  const double lag = edges_.envelope().lag(z);
+  law_.find(tooth.flute, z, lag, reaches_);
+  const double sin_phi = std::sin(tooth.tip_angle - tooth.tangent * lag);
+  const auto value = [&](const Reach& reach) {
+    return ChipLaw::reach_over(reach, tooth.feed, sin_phi, 1.0, 0.0);
+  };
+  const auto smallest =
+      std::min_element(reaches_.begin(), reaches_.end(),
+                       [&](const Reach& a, const Reach& b) { return value(a) < value(b); });
+  return static_cast<int>(smallest - reaches_.begin());
+}
+
+void ForceSensitivity::add_by_nodes(Tooth& tooth, const EdgePiece& piece, const Regime& regime) {
+  const auto add = [&](const EdgeNode& node) { tooth.add(node); };
+  if (wanted_.size_effect) {
+    for_each_gathered_node(edges_, piece, tooth.tangent, regime.bottom, regime.top, add);
+  } else {
+    edges_.for_each_node(piece, tooth.tangent, regime.bottom, regime.top, add);
+  }
 }
 
 void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
-  for (const EdgePiece& piece : edges_.pieces()) {
+  for (std::size_t q = 0; q < edges_.pieces().size(); ++q) {
+    const EdgePiece& piece = edges_.pieces()[q];
     const double from = std::max(z1, piece.bottom);
     const double to = std::min(z2, piece.top);
     if (from >= to) continue;
-    find_regimes(edges_, law_, tooth.feed, tooth.flute, piece, tooth.tip_angle, from, to, regimes_);
+    const bool whole = from == piece.bottom && to == piece.top;
+    // Most often one reach decides from end to end; each pair crosses once, so the ends tell.
+    int decides = -1;
+    if (by_moments_) {
+      const std::array<double, 2> low =
+          from == piece.bottom ? ends_[q][0] : lag_at(tooth.tangent, from);
+      const std::array<double, 2> high = to == piece.top ? ends_[q][1] : lag_at(tooth.tangent, to);
+      const auto less_at = [](const std::array<double, 2>& lag) {
+        return [&lag](const Line& a, const Line& b) { return a.at(lag) < b.at(lag); };
+      };
+      const auto first = std::min_element(lines_.begin(), lines_.end(), less_at(low));
+      const auto last = std::min_element(lines_.begin(), lines_.end(), less_at(high));
+      if (lines_.size() == 1 || (first == last && first->at(low) > 0.0 && last->at(high) > 0.0)) {
+        decides = static_cast<int>(first - lines_.begin());
+      }
+    }
+    if (decides >= 0) {
+      regimes_.assign(1, {from, to});
+    } else {
+      find_regimes(edges_, law_, tooth.feed, tooth.flute, piece, tooth.tip_angle, from, to,
+                   regimes_);
+    }
     for (std::size_t i = 0; i < regimes_.size(); ++i) {
       const Regime& regime = regimes_[i];
-      const double middle = 0.5 * (regime.bottom + regime.top);
-      const double lag = edges_.envelope().lag(middle);
-      law_.find(tooth.flute, middle, lag, reaches_);
-      const double sin_phi = std::sin(tooth.tip_angle - tooth.tangent * lag);
-      const auto smallest =
-          std::min_element(reaches_.begin(), reaches_.end(), [&](const Reach& a, const Reach& b) {
-            return ChipLaw::reach_over(a, tooth.feed, sin_phi, 1.0, 0.0) <
-                   ChipLaw::reach_over(b, tooth.feed, sin_phi, 1.0, 0.0);
-          });
-      tooth.follow(static_cast<int>(smallest - reaches_.begin()) + 1);
-      const auto add = [&](const EdgeNode& node) { tooth.add(node); };
-      if (gather_) {
-        for_each_gathered_node(edges_, piece, tooth.tangent, regime.bottom, regime.top, add);
+      const int reach =
+          decides >= 0 ? decides : smallest_at(tooth, 0.5 * (regime.bottom + regime.top));
+      tooth.follow(reach + 1);
+      if (by_moments_) {
+        tooth.add(whole && decides >= 0
+                      ? whole_[q]
+                      : moments_of(edges_, piece, tooth.tangent, regime.bottom, regime.top),
+                  lines_[reach], wanted_.slopes);
       } else {
-        edges_.for_each_node(piece, tooth.tangent, regime.bottom, regime.top, add);
+        add_by_nodes(tooth, piece, regime);
       }
       // Where tooth and tooth cross, and where pieces join, what one side loses the other gains.
       if (regime.bottom == from) {
@@ -222,10 +316,28 @@ void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
   }
 }
 
+/// (F23) for the flute at hand: what does not change along its edge.
+void ForceSensitivity::find_lines(const Tooth& tooth) {
+  const std::vector<cutter::Flute>& flutes = edges_.flutes();
+  const auto count = static_cast<int>(flutes.size());
+  const double own = flutes[tooth.flute].position;
+  for (int m = 1; m <= law_.reaches(); ++m) {
+    Line& line = lines_[m - 1];
+    const int other = (tooth.flute + m) % count;
+    const double turn = tooth.flute + m >= count ? 2.0 * core::kPi : 0.0;
+    line.ratio = (flutes[other].position + turn - own) * count / (2.0 * core::kPi);
+    line.cosines = tips_[tooth.flute][0] - tips_[other][0];
+    line.sines = tips_[tooth.flute][1] - tips_[other][1];
+    line.a = line.ratio * tooth.feed.per_tooth * tooth.sin_tip + tooth.offset[0] * line.cosines +
+             tooth.offset[1] * line.sines;
+    line.b = -line.ratio * tooth.feed.per_tooth * tooth.cos_tip + tooth.offset[0] * line.sines -
+             tooth.offset[1] * line.cosines;
+  }
+}
+
 Sensitivity ForceSensitivity::at(double angle, double feed_per_tooth,
                                  const FittedCoefficients& coefficients) {
   Sensitivity sum;
-  const cutter::Runout& runout = edges_.cutter().runout;
   for (std::size_t j = 0; j < edges_.flutes().size(); ++j) {
     const cutter::Flute& flute = edges_.flutes()[j];
     Tooth tooth{edges_,
@@ -234,10 +346,19 @@ Sensitivity ForceSensitivity::at(double angle, double feed_per_tooth,
                 {feed_per_tooth, 0.0, 0.0},
                 static_cast<int>(j),
                 angle + flute.position};
-    tooth.offset = {runout.offset * std::cos(runout.angle), runout.offset * std::sin(runout.angle)};
-    tooth.with_exponent = gather_;
+    tooth.offset = offset_;
+    tooth.with_exponent = wanted_.size_effect;
+    bool lines_known = !by_moments_;
     for_each_engaged_interval(edges_, flute.helix_tangent, arc_, tooth.tip_angle,
-                              [&](double z1, double z2) { add_interval(tooth, z1, z2); });
+                              [&](double z1, double z2) {
+                                if (!lines_known) {
+                                  tooth.sin_tip = std::sin(tooth.tip_angle);
+                                  tooth.cos_tip = std::cos(tooth.tip_angle);
+                                  find_lines(tooth);
+                                  lines_known = true;
+                                }
+                                add_interval(tooth, z1, z2);
+                              });
   }
   return sum;
 }

@@ -8,6 +8,7 @@
 #include "force/chip_regimes.h"
 #include "force/edge.h"
 #include "force/engagement.h"
+#include "force/stretch_moments.h"
 
 namespace millstudy::force {
 
@@ -42,11 +43,16 @@ struct Sensitivity {
 /// runout of a cutter without any that enters where the chip is zero.
 class ForceSensitivity {
  public:
+  /// What is asked for besides the six coefficients, which takes longer.
+  struct Wanted {
+    bool slopes = false;       ///< columns 6 .. 11; without, these coefficients must be zero
+    bool size_effect = false;  ///< without, the exponent must be zero
+  };
+
   /// @param cutter      runout is taken from it; its tilt must be zero
   /// @param engagement  check() lets it pass with this cutter
-  /// @param gather      nodes gather where the chip vanishes: for a size effect
   /// Throws core::InputError for a tilt.
-  ForceSensitivity(const cutter::Cutter& cutter, const Engagement& engagement, bool gather);
+  ForceSensitivity(const cutter::Cutter& cutter, const Engagement& engagement, Wanted wanted);
   ForceSensitivity(const ForceSensitivity&) = delete;
   ForceSensitivity& operator=(const ForceSensitivity&) = delete;
 
@@ -56,13 +62,33 @@ class ForceSensitivity {
   Sensitivity at(double angle, double feed_per_tooth, const FittedCoefficients& coefficients);
 
  private:
+  /// (F23): the chip under one reach is A cos(psi) + B sin(psi) over sin(kappa), psi the lag.
+  struct Line {
+    double ratio = 0.0;    ///< w_m, feed since that tooth passed over the mean one [1]
+    double cosines = 0.0;  ///< of the positions of both teeth, the difference
+    double sines = 0.0;
+    double a = 0.0;
+    double b = 0.0;
+    double at(const std::array<double, 2>& lag) const { return a * lag[0] + b * lag[1]; }
+  };
   struct Tooth;
+  void find_lines(const Tooth& tooth);
   void add_interval(Tooth& tooth, double z1, double z2);
+  void add_by_nodes(Tooth& tooth, const EdgePiece& piece, const Regime& regime);
+  int smallest_at(const Tooth& tooth, double z);
+  std::array<double, 2> lag_at(double tangent, double z) const;
 
   CuttingEdges edges_;
   ChipLaw law_;
   Arc arc_;
-  bool gather_;
+  Wanted wanted_;
+  bool by_moments_;                          ///< (F31)
+  std::array<double, 2> offset_{};           ///< of the runout
+  std::vector<std::array<double, 2>> tips_;  ///< cos and sin of the positions of the flutes
+  // Of every piece as a whole, where (F31) serves.
+  std::vector<MomentPair> whole_;
+  std::vector<std::array<std::array<double, 2>, 2>> ends_;  ///< cos and sin of the lag at its ends
+  std::vector<Line> lines_;                                 ///< of the flute at hand, by reach
   std::vector<Regime> regimes_;
   std::vector<Reach> reaches_;
 };

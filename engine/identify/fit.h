@@ -54,6 +54,9 @@ struct FitSettings {
   Estimated phase = Estimated::per_record;  ///< per_record or no
   Estimated spindle_speed = Estimated::per_record;
   Estimated runout = Estimated::per_record;  ///< no: that of the cutter
+  /// Largest component of the runout [mm], > 0. Across the direction in which teeth differ, runout
+  /// hardly shows, so that without a limit a small cut may ask for a runout that no spindle has.
+  double runout_limit = 0.05;
   Estimated offset = Estimated::per_record;  ///< per_record or no
   Estimated drift = Estimated::no;           ///< slopes of the offsets; per_record or no
   /// Knots of a cubic spline for the slow wandering of the spindle angle; 0: it turns evenly.
@@ -70,7 +73,7 @@ struct FitSettings {
   bool weigh_records_alike = false;  ///< residuals over the root mean square of their record
   std::array<bool, 3> axes = {true, true, true};  ///< which are fitted, of those measured
 
-  double tolerance = 1e-10;  ///< relative decrease of the cost, and step, at which it has converged
+  double tolerance = 1e-8;  ///< relative decrease of the cost at which it has converged
   int max_iterations = 100;
 };
 
@@ -121,6 +124,12 @@ struct FitResult {
   std::vector<double> covariance;
   std::vector<double> correlation;
   double condition_number = 0.0;  ///< of the coefficients' columns, scaled to unit length (I7)
+
+  /// How well the coefficients of the other records describe each one, its own parameters fitted;
+  /// empty below three records.
+  std::vector<Agreement> left_out;
+  /// Of these, all together: root of the residual over the total sum of squares [1]; NaN if empty.
+  double prediction_error = std::numeric_limits<double>::quiet_NaN();
 
   bool converged = false;
   int iterations = 0;

@@ -55,7 +55,8 @@ Vector reference_force(const Point& point) {
 }
 
 Sensitivity at(const Point& point) {
-  ForceSensitivity kernel(point.cutter, point.engagement, point.coefficients.size_exponent != 0.0);
+  const bool size_effect = point.coefficients.size_exponent != 0.0;
+  ForceSensitivity kernel(point.cutter, point.engagement, {true, size_effect});
   return kernel.at(point.angle, point.feed, point.coefficients);
 }
 
@@ -193,7 +194,7 @@ TEST(ForceSensitivity, IsLinearInTheCoefficients) {
 TEST(ForceSensitivity, RefusesTiltedAxes) {
   cutter::Cutter cutter = testing::haber_cutter(cutter::Shape::flat);
   cutter.runout.tilt = 1e-3;
-  EXPECT_THROW(ForceSensitivity(cutter, slot(1.0), false), core::InputError);
+  EXPECT_THROW(ForceSensitivity(cutter, slot(1.0), {}), core::InputError);
 }
 
 }  // namespace

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "identify/fit_start.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+#include "core/units.h"
+#include "cutter/flutes.h"
+#include "identify/joint_problem.h"
+
+namespace millstudy::identify {
+namespace {
+
+constexpr double kTurn = 2.0 * core::kPi;
+
+/// One revolution, averaged over all; bins that no sample fell into are filled from both sides.
+///
+/// Bin i is at the angle (i + 1/2) 2 pi / bins after the spindle's position at the middle of the
+/// record.
+Trace mean_revolution(const Trace& trace, double spindle_speed) {
+  const double per_turn = kTurn / spindle_speed * trace.sampling_rate;
+  const int bins = std::clamp(static_cast<int>(per_turn), 24, 360);
+  const double middle = 0.5 * static_cast<double>(trace.size() - 1);
+  std::vector<double> counts(bins, 0.0);
+  std::vector<int> bin_of(trace.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const double turns = (static_cast<double>(i) - middle) / per_turn;
+    bin_of[i] = std::min(bins - 1, static_cast<int>((turns - std::floor(turns)) * bins));
+    counts[bin_of[i]] += 1.0;
+  }
+  Trace mean{trace.source, spindle_speed * bins / kTurn, 0.0, {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!trace.has_axis(axis)) continue;
+    std::vector<double>& force = mean.force[axis];
+    force.assign(bins, 0.0);
+    for (std::size_t i = 0; i < trace.size(); ++i) force[bin_of[i]] += trace.force[axis][i];
+    for (int b = 0; b < bins; ++b) {
+      if (counts[b] > 0.0) force[b] /= counts[b];
+    }
+    for (int b = 0; b < bins; ++b) {
+      if (counts[b] > 0.0) continue;
+      int before = 1, after = 1;
+      while (before < bins && counts[(b - before + bins) % bins] == 0.0) ++before;
+      while (after < bins && counts[(b + after) % bins] == 0.0) ++after;
+      const double low = force[(b - before + bins) % bins], high = force[(b + after) % bins];
+      force[b] = (low * after + high * before) / (before + after);
+    }
+  }
+  return mean;
+}
+
+/// A phase and the coefficients that fit it best.
+struct Candidate {
+  double phase;
+  double squares;  ///< what they leave [N2]
+  std::array<double, 6> k;
+};
+
+/// (I3): least squares of the coefficients and offsets at every phase of a revolution.
+class PhaseScan {
+ public:
+  PhaseScan(const cutter::Cutter& cutter, const Record& turn, const FitSettings& settings)
+      : bins_(static_cast<int>(turn.trace.size())), turn_(turn), settings_(settings) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (settings.axes[axis] && turn.trace.has_axis(axis)) axes_.push_back(axis);
+    }
+    force::ForceSensitivity kernel(cutter, turn.engagement, {});
+    const double feed = turn.feed_rate * kTurn / (turn.spindle_speed * cutter.flutes);
+    for (int i = 0; i < bins_; ++i) {
+      const force::Sensitivity at = kernel.at(kTurn * i / bins_, feed, {});
+      table_.push_back(at.coefficient);
+    }
+  }
+
+  /// @param shift  bins by which the phase is ahead
+  Candidate at(int shift) const {
+    const auto offsets = static_cast<int>(settings_.offset == Estimated::no ? 0 : axes_.size());
+    Eigen::MatrixXd a(bins_ * static_cast<int>(axes_.size()), 6 + offsets);
+    Eigen::VectorXd b(a.rows());
+    a.setZero();
+    for (std::size_t q = 0; q < axes_.size(); ++q) {
+      for (int i = 0; i < bins_; ++i) {
+        const auto row = static_cast<Eigen::Index>(q) * bins_ + i;
+        b[row] = turn_.trace.force[axes_[q]][i];
+        const auto& columns = table_[(i + shift) % bins_];
+        for (int c = 0; c < 6; ++c) {
+          if (settings_.known[c].fixed) {
+            b[row] -= *settings_.known[c].fixed * columns[c][axes_[q]];
+          } else {
+            a(row, c) = columns[c][axes_[q]];
+          }
+        }
+        if (offsets > 0) a(row, 6 + static_cast<Eigen::Index>(q)) = 1.0;
+      }
+    }
+    Eigen::VectorXd scale = a.colwise().norm();
+    for (double& s : scale) s = s > 0.0 ? s : 1.0;
+    a *= scale.cwiseInverse().asDiagonal();
+    Eigen::MatrixXd gram = a.transpose() * a;
+    gram.diagonal().array() += 1e-12;  // columns that are alike, or empty, share and stay small
+    const Eigen::VectorXd x = gram.ldlt().solve(a.transpose() * b);
+    Candidate candidate{kTurn * (shift + 0.5 * (bins_ - 1)) / bins_, (b - a * x).squaredNorm(), {}};
+    for (int c = 0; c < 6; ++c) {
+      candidate.k[c] = settings_.known[c].fixed.value_or(x[c] / scale[c]);
+    }
+    return candidate;
+  }
+
+  int bins() const { return bins_; }
+
+ private:
+  int bins_;
+  const Record& turn_;
+  const FitSettings& settings_;
+  std::vector<int> axes_;
+  std::vector<std::array<force::Sensitivity::Vector, force::kFittedColumns>> table_;
+};
+
+/// Phases at which the rest is least, best first; of negative Ktc only if there is no other.
+std::vector<Candidate> best_phases(const cutter::Cutter& cutter, const Record& turn,
+                                   const FitSettings& settings) {
+  constexpr std::size_t kMost = 3;
+  const PhaseScan scan(cutter, turn, settings);
+  std::vector<Candidate> all;
+  for (int shift = 0; shift < scan.bins(); ++shift) all.push_back(scan.at(shift));
+  const bool equal = cutter::has_equal_flutes(cutter);
+  const int period = equal ? scan.bins() / cutter.flutes + 1 : scan.bins();
+  std::vector<Candidate> least;
+  for (int i = 0; i < period; ++i) {
+    const Candidate& here = all[i];
+    const Candidate& before = all[(i + scan.bins() - 1) % scan.bins()];
+    const Candidate& after = all[(i + 1) % scan.bins()];
+    if (here.squares <= before.squares && here.squares <= after.squares) least.push_back(here);
+  }
+  std::stable_sort(least.begin(), least.end(), [](const Candidate& a, const Candidate& b) {
+    if ((a.k[0] > 0.0) != (b.k[0] > 0.0)) return a.k[0] > 0.0;
+    return a.squares < b.squares;
+  });
+  if (least.size() > kMost) least.resize(kMost);
+  return least;
+}
+
+}  // namespace
+
+void renumber_flutes(RecordState& state, int flutes, int steps) {
+  const double angle = kTurn * steps / flutes;
+  state.phase += angle;
+  const double c = std::cos(angle), s = std::sin(angle);
+  state.runout = {c * state.runout[0] + s * state.runout[1],
+                  c * state.runout[1] - s * state.runout[0]};
+}
+
+RecordState find_start(const cutter::Cutter& cutter, const Record& record,
+                       const FitSettings& settings, double known_phase, double spindle_speed) {
+  Record turn = record;
+  turn.trace = mean_revolution(record.trace, spindle_speed);
+  turn.spindle_speed = spindle_speed;
+  FitSettings one = settings;
+  one.model = Model::constant;
+  one.spindle_speed = Estimated::no;
+  one.drift = Estimated::no;
+  one.phase_drift_knots = 0;
+  one.estimate_dynamometer = false;
+  one.weigh_records_alike = false;
+  one.max_iterations = 30;
+  one.tolerance = 1e-6;
+  if (settings.runout != Estimated::no) one.runout = Estimated::per_record;
+
+  const double half_turn = core::kPi;  // from the middle of the record to that of the turn
+  const double to_middle = 0.5 * static_cast<double>(record.trace.size() - 1) /
+                           record.trace.sampling_rate * spindle_speed;
+  std::vector<Candidate> phases;
+  if (settings.phase == Estimated::no) {
+    phases.push_back({known_phase + to_middle + half_turn, 0.0, {1000, 500, 300, 20, 20, 10}});
+  } else {
+    phases = best_phases(cutter, turn, one);
+  }
+  const double feed = record.feed_rate * kTurn / (spindle_speed * cutter.flutes);
+  std::vector<RecordState> starts;
+  for (const Candidate& phase : phases) {
+    RecordState state;
+    std::copy(phase.k.begin(), phase.k.end(), state.coefficients.k.begin());
+    state.coefficients.reference_chip_thickness = settings.reference_chip_thickness;
+    state.dynamometer = settings.dynamometer;
+    state.phase = phase.phase;
+    state.spindle_speed = spindle_speed;
+    state.runout = {cutter.runout.offset * std::cos(cutter.runout.angle),
+                    cutter.runout.offset * std::sin(cutter.runout.angle)};
+    if (settings.runout == Estimated::no) {
+      starts.push_back(state);
+      continue;
+    }
+    for (int i = 0; i < 8; ++i) {
+      const double offset = (i % 2 == 0 ? 0.05 : 0.4) * feed;
+      state.runout = {offset * std::cos(kTurn * i / 8.0), offset * std::sin(kTurn * i / 8.0)};
+      starts.push_back(state);
+    }
+  }
+  const std::vector<Record> turns = {turn};
+  std::vector<double> costs(starts.size(), std::numeric_limits<double>::infinity());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    JointProblem problem(cutter, turns, one, {starts[i]});
+    costs[i] = problem.solve().cost;
+    starts[i] = problem.states().front();
+  });
+  // Of negative tangential coefficients only where there are no others.
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    const bool better = starts[i].coefficients.k[0] > 0.0;
+    const bool was = starts[best].coefficients.k[0] > 0.0;
+    if (better != was ? better : costs[i] < costs[best]) best = i;
+  }
+  RecordState start = starts[best];
+  start.phase -= half_turn;
+  start.phase_drift.assign(settings.phase_drift_knots, 0.0);
+  if (settings.phase != Estimated::no && cutter::has_equal_flutes(cutter)) {
+    const double pitch = kTurn / cutter.flutes;
+    renumber_flutes(start, cutter.flutes, -static_cast<int>(std::floor(start.phase / pitch)));
+  }
+  return start;
+}
+
+}  // namespace millstudy::identify
