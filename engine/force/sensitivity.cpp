@@ -227,7 +227,7 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
   if (!by_moments_) return;
   const double tangent = edges_.flutes().front().helix_tangent;
   for (const EdgePiece& piece : edges_.pieces()) {
-    whole_.push_back(moments_of(edges_, piece, tangent, piece.bottom, piece.top));
+    whole_.push_back(moments_of(edges_, piece, tangent, piece.bottom, piece.top, wanted.slopes));
     ends_.push_back({lag_at(tangent, piece.bottom), lag_at(tangent, piece.top)});
   }
 }
@@ -294,9 +294,9 @@ void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
           decides >= 0 ? decides : smallest_at(tooth, 0.5 * (regime.bottom + regime.top));
       tooth.follow(reach + 1);
       if (by_moments_) {
-        tooth.add(whole && decides >= 0
-                      ? whole_[q]
-                      : moments_of(edges_, piece, tooth.tangent, regime.bottom, regime.top),
+        tooth.add(whole && decides >= 0 ? whole_[q]
+                                        : moments_of(edges_, piece, tooth.tangent, regime.bottom,
+                                                     regime.top, wanted_.slopes),
                   lines_[reach], wanted_.slopes);
       } else {
         add_by_nodes(tooth, piece, regime);

@@ -24,13 +24,13 @@ void StretchMoments::add(const EdgeNode& node, double factor, double cos_lag, do
 }
 
 MomentPair moments_of(const CuttingEdges& edges, const EdgePiece& piece, double helix_tangent,
-                      double z1, double z2) {
+                      double z1, double z2, bool with_slopes) {
   MomentPair pair{};
   edges.for_each_node(piece, helix_tangent, z1, z2, [&](const EdgeNode& node) {
     const double lag = helix_tangent * node.lag;
     const double c = std::cos(lag), s = std::sin(lag);
     pair[0].add(node, 1.0, c, s);
-    pair[1].add(node, node.z, c, s);
+    if (with_slopes) pair[1].add(node, node.z, c, s);
   });
   return pair;
 }

@@ -29,9 +29,9 @@ struct StretchMoments {
 /// Moments with the weights above, and with these times z.
 using MomentPair = std::array<StretchMoments, 2>;
 
-/// By Gauss-Legendre (F10) over z1 .. z2 within a piece.
+/// By Gauss-Legendre (F10) over z1 .. z2 within a piece; without slopes the second is zero.
 MomentPair moments_of(const CuttingEdges& edges, const EdgePiece& piece, double helix_tangent,
-                      double z1, double z2);
+                      double z1, double z2, bool with_slopes);
 
 /// Force along x, y, z for a coefficient of one; columns tangential, radial, axial.
 using UnitForces = std::array<std::array<double, 3>, 3>;

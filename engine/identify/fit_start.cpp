@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tbb/parallel_for.h>
 
@@ -144,6 +143,30 @@ std::vector<Candidate> best_phases(const cutter::Cutter& cutter, const Record& t
   return least;
 }
 
+/// Moves each start some steps towards its least; best first, of negative Ktc last.
+std::vector<RecordState> followed(const cutter::Cutter& cutter, const Record& turn,
+                                  FitSettings settings, std::vector<RecordState> starts,
+                                  int steps) {
+  settings.max_iterations = steps;
+  const std::vector<Record> turns = {turn};
+  std::vector<double> costs(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    JointProblem problem(cutter, turns, settings, {starts[i]});
+    costs[i] = problem.solve().cost;
+    starts[i] = problem.states().front();
+  });
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const bool a_cuts = starts[a].coefficients.k[0] > 0.0;
+    const bool b_cuts = starts[b].coefficients.k[0] > 0.0;
+    return a_cuts != b_cuts ? a_cuts : costs[a] < costs[b];
+  });
+  std::vector<RecordState> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(starts[i]));
+  return sorted;
+}
+
 }  // namespace
 
 void renumber_flutes(RecordState& state, int flutes, int steps) {
@@ -166,7 +189,6 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
   one.phase_drift_knots = 0;
   one.estimate_dynamometer = false;
   one.weigh_records_alike = false;
-  one.max_iterations = 30;
   one.tolerance = 1e-6;
   if (settings.runout != Estimated::no) one.runout = Estimated::per_record;
 
@@ -200,21 +222,13 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
       starts.push_back(state);
     }
   }
-  const std::vector<Record> turns = {turn};
-  std::vector<double> costs(starts.size(), std::numeric_limits<double>::infinity());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    JointProblem problem(cutter, turns, one, {starts[i]});
-    costs[i] = problem.solve().cost;
-    starts[i] = problem.states().front();
-  });
-  // Of negative tangential coefficients only where there are no others.
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < starts.size(); ++i) {
-    const bool better = starts[i].coefficients.k[0] > 0.0;
-    const bool was = starts[best].coefficients.k[0] > 0.0;
-    if (better != was ? better : costs[i] < costs[best]) best = i;
+  // All of them a few steps, the best of these to their least.
+  constexpr std::size_t kFollowed = 4;
+  for (const int steps : {4, 30}) {
+    starts = followed(cutter, turn, one, std::move(starts), steps);
+    if (starts.size() > kFollowed) starts.resize(kFollowed);
   }
-  RecordState start = starts[best];
+  RecordState start = starts.front();
   start.phase -= half_turn;
   start.phase_drift.assign(settings.phase_drift_knots, 0.0);
   if (settings.phase != Estimated::no && cutter::has_equal_flutes(cutter)) {

@@ -52,6 +52,93 @@ force::Sensitivity::Vector column_of(const Parameter& p, const force::Sensitivit
   }
 }
 
+/// (D40) applied to forces and to their derivatives, stretch after stretch.
+class Dynamometer {
+ public:
+  Dynamometer(const RecordState& state, std::span<const Parameter> parameters,
+              const std::vector<int>& axes, double sampling_rate)
+      : state_(state), parameters_(parameters), axes_(axes) {
+    for (const int axis : axes) {
+      std::vector<Mode>& modes = modes_.emplace_back();
+      for (const dynamics::DynamometerMode& m : state.dynamometer[axis]) {
+        modes.push_back({dynamics::ModeFilter(m.mode, 1.0 / sampling_rate), {}, {}});
+        modes.back().columns.resize(parameters.size());
+        const double decay = m.mode.damping_ratio * m.mode.natural_frequency / sampling_rate;
+        const double samples = std::min(kLongest, kForgotten / decay);
+        warm_up_ = std::max(warm_up_, static_cast<std::ptrdiff_t>(samples) + 1);
+      }
+    }
+  }
+
+  /// Samples after which nothing is left of how the filters began.
+  std::ptrdiff_t warm_up() const { return warm_up_; }
+
+  void transmit(Stretch& stretch) {
+    const Eigen::Index count = stretch.samples;
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      const int axis = axes_[a];
+      if (modes_[a].empty()) continue;
+      const Eigen::Index from = static_cast<Eigen::Index>(a) * count;
+      for (std::size_t c = 0; c < parameters_.size(); ++c) {
+        const auto column = static_cast<Eigen::Index>(c);
+        if (is_mode(parameters_[c]) || is_added(parameters_[c])) continue;
+        for (Eigen::Index row = from; row < from + count; ++row) {
+          double& f = stretch.jacobian(row, column);
+          double sum = f;
+          for (std::size_t m = 0; m < modes_[a].size(); ++m) {
+            const double x = modes_[a][m].filter.next(modes_[a][m].columns[c], f);
+            sum += state_.dynamometer[axis][m].gain * (x - f);
+          }
+          f = sum;
+        }
+      }
+      for (Eigen::Index row = from; row < from + count; ++row) {
+        double& f = stretch.predicted[row];
+        double sum = f;
+        for (std::size_t m = 0; m < modes_[a].size(); ++m) {
+          Mode& mode = modes_[a][m];
+          const double gain = state_.dynamometer[axis][m].gain;
+          const double x = mode.filter.next(mode.force, f);
+          sum += gain * (x - f);
+          for (std::size_t c = 0; c < parameters_.size(); ++c) {
+            const Parameter& p = parameters_[c];
+            if (!is_mode(p) || p.axis != axis || p.index != static_cast<int>(m)) continue;
+            stretch.jacobian(row, static_cast<Eigen::Index>(c)) =
+                p.kind == Kind::mode_gain        ? x - f
+                : p.kind == Kind::mode_frequency ? gain * mode.force.position_by[0]
+                                                 : gain * mode.force.position_by[1];
+          }
+        }
+        f = sum;
+      }
+    }
+  }
+
+ private:
+  static constexpr double kForgotten = 23.0;  // exp(-23) = 1e-10
+  static constexpr double kLongest = 20000.0;
+
+  static bool is_mode(const Parameter& p) {
+    return p.kind == Kind::mode_frequency || p.kind == Kind::mode_damping ||
+           p.kind == Kind::mode_gain;
+  }
+  /// It is added to the signal, behind the dynamometer.
+  static bool is_added(const Parameter& p) {
+    return p.kind == Kind::offset || p.kind == Kind::drift;
+  }
+
+  struct Mode {
+    dynamics::ModeFilter filter;
+    dynamics::ModeFilter::GradientState force;
+    std::vector<dynamics::ModeFilter::State> columns;
+  };
+  const RecordState& state_;
+  std::span<const Parameter> parameters_;
+  const std::vector<int>& axes_;
+  std::vector<std::vector<Mode>> modes_;  ///< by fitted axis
+  std::ptrdiff_t warm_up_ = 0;
+};
+
 }  // namespace
 
 RecordModel::RecordModel(const cutter::Cutter& cutter, const Record& record,
@@ -93,12 +180,14 @@ void RecordModel::for_each_stretch(const RecordState& state, std::span<const Par
   const auto columns = static_cast<Eigen::Index>(parameters.size());
   const double last = static_cast<double>(std::max<std::ptrdiff_t>(1, size - 1));
   const double rate = record_.trace.sampling_rate;
+  const double half = middle();
 
+  Dynamometer dynamometer(state, parameters, axes_, rate);
   Stretch stretch;
-  for (std::ptrdiff_t first = 0; first < size; first += kStretch) {
-    const std::ptrdiff_t count = std::min(kStretch, size - first);
+  const std::ptrdiff_t warm_up = dynamometer.warm_up();
+  for (std::ptrdiff_t first = -warm_up; first < size;) {
+    const std::ptrdiff_t count = std::min(kStretch, (first < 0 ? 0 : size) - first);
     const auto rows = static_cast<Eigen::Index>(axes_.size()) * count;
-    stretch.first = static_cast<std::size_t>(first);
     stretch.samples = static_cast<int>(count);
     stretch.residual.resize(rows);
     stretch.predicted.resize(rows);
@@ -108,11 +197,11 @@ void RecordModel::for_each_stretch(const RecordState& state, std::span<const Par
       for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) {
         const auto sample = static_cast<double>(first + i);
         const force::Sensitivity at = kernel.at(angle_at(state, sample), feed, state.coefficients);
-        const double time = sample / rate - middle();
-        const SplinePlace spline =
-            state.phase_drift.empty()
-                ? SplinePlace{}
-                : spline_place(sample / last, static_cast<int>(state.phase_drift.size()));
+        const double time = sample / rate - half;
+        const SplinePlace spline = state.phase_drift.empty()
+                                       ? SplinePlace{}
+                                       : spline_place(std::clamp(sample / last, 0.0, 1.0),
+                                                      static_cast<int>(state.phase_drift.size()));
         for (std::size_t a = 0; a < axes_.size(); ++a) {
           stretch.predicted[static_cast<Eigen::Index>(a) * count + i] = at.force[axes_[a]];
         }
@@ -126,24 +215,28 @@ void RecordModel::for_each_stretch(const RecordState& state, std::span<const Par
     };
     tbb::parallel_for(tbb::blocked_range<std::ptrdiff_t>(0, count, kKernelGrain), compute,
                       tbb::simple_partitioner());
-    // What the dynamometer does, then what is added to its signal.
-    for (std::size_t a = 0; a < axes_.size(); ++a) {
-      const int axis = axes_[a];
-      const std::vector<double>& measured = record_.trace.force[axis];
-      for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const double time = static_cast<double>(first + i) / rate - middle();
-        const Eigen::Index row = static_cast<Eigen::Index>(a) * count + i;
-        stretch.predicted[row] += state.offset[axis] + state.drift[axis] * time;
-        stretch.residual[row] = stretch.predicted[row] - measured[first + i];
-        for (Eigen::Index c = 0; c < columns; ++c) {
-          const Parameter& p = parameters[c];
-          if (p.axis != axis) continue;
-          if (p.kind == Kind::offset) stretch.jacobian(row, c) = 1.0;
-          if (p.kind == Kind::drift) stretch.jacobian(row, c) = time;
+    dynamometer.transmit(stretch);
+    if (first >= 0) {
+      stretch.first = static_cast<std::size_t>(first);
+      for (std::size_t a = 0; a < axes_.size(); ++a) {
+        const int axis = axes_[a];
+        const std::vector<double>& measured = record_.trace.force[axis];
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+          const double time = static_cast<double>(first + i) / rate - half;
+          const Eigen::Index row = static_cast<Eigen::Index>(a) * count + i;
+          stretch.predicted[row] += state.offset[axis] + state.drift[axis] * time;
+          stretch.residual[row] = stretch.predicted[row] - measured[first + i];
+          for (Eigen::Index c = 0; c < columns; ++c) {
+            const Parameter& p = parameters[c];
+            if (p.axis != axis) continue;
+            if (p.kind == Kind::offset) stretch.jacobian(row, c) = 1.0;
+            if (p.kind == Kind::drift) stretch.jacobian(row, c) = time;
+          }
         }
       }
+      visit(stretch);
     }
-    visit(stretch);
+    first += count;
   }
 }
 
