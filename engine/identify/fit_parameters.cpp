@@ -66,7 +66,7 @@ Bounds bounds_of(const Parameter& p, const RecordState& start, const Record& rec
     case Kind::mode_frequency:
       return {0.5 * value_of(start, p), 2.0 * value_of(start, p)};
     case Kind::mode_damping:
-      return {1e-4, 0.9};
+      return {0.005, 0.9};
     default:
       return {-kUnbounded, kUnbounded};
   }

@@ -115,7 +115,7 @@ class Dynamometer {
   }
 
  private:
-  static constexpr double kForgotten = 23.0;  // exp(-23) = 1e-10
+  static constexpr double kForgotten = 20.0;  // exp(-20) = 2e-9
   static constexpr double kLongest = 20000.0;
 
   static bool is_mode(const Parameter& p) {
