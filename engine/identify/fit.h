@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,12 @@ struct Known {
   std::optional<double> deviation = std::nullopt;  ///< ... and standard deviation, > 0
 };
 
+/// A fit was told to stop; there is no result.
+class Stopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// What is estimated, and how.
 struct FitSettings {
   Model model = Model::constant;
@@ -73,8 +82,16 @@ struct FitSettings {
   bool weigh_records_alike = false;  ///< residuals over the root mean square of their record
   std::array<bool, 3> axes = {true, true, true};  ///< which are fitted, of those measured
 
+  /// Forces are fitted and compared below this frequency only [Hz]; 0: as they are.
+  double below = 0.0;
+
   double tolerance = 1e-8;  ///< relative decrease of the cost at which it has converged
   int max_iterations = 100;
+
+  /// Once it is set, fit() throws Stopped.
+  const std::atomic<bool>* stop = nullptr;
+  /// Told of each iteration of the joint fit: its number and the root mean square residual [N].
+  std::function<void(int iteration, double residual)> progress = nullptr;
 };
 
 /// A parameter, its value and how sure it is. Errors that were not computed are NaN.

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "force/engagement.h"
 #include "identify/fit_steps.h"
+#include "identify/low_pass.h"
 
 namespace millstudy::identify {
 namespace {
@@ -42,6 +43,14 @@ void check(const cutter::Cutter& cutter, const std::vector<Record>& records,
     if (turns < 1.0) {
       fault(fmt::format("{}: {:.2g} revolutions of the spindle; a fit needs at least one",
                         record.name, turns));
+    }
+    if (settings.below > 0.25 * record.trace.sampling_rate) {
+      fault(fmt::format("{}: fit.below_Hz must be at most a quarter of the sampling rate, {} Hz",
+                        record.name, 0.25 * record.trace.sampling_rate));
+    } else if (settings.below > 0.0 &&
+               record.trace.size() <
+                   2 * low_pass_length(settings.below, record.trace.sampling_rate)) {
+      fault(fmt::format("{}: too short to fit below {} Hz", record.name, settings.below));
     }
     bool measured = false;
     for (int axis = 0; axis < 3; ++axis) {

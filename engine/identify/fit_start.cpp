@@ -183,12 +183,14 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
   turn.trace = mean_revolution(record.trace, spindle_speed);
   turn.spindle_speed = spindle_speed;
   FitSettings one = settings;
+  one.progress = nullptr;
   one.model = Model::constant;
   one.spindle_speed = Estimated::no;
   one.drift = Estimated::no;
   one.phase_drift_knots = 0;
   one.estimate_dynamometer = false;
   one.weigh_records_alike = false;
+  one.below = 0.0;  // one revolution is too short to filter
   one.tolerance = 1e-6;
   if (settings.runout != Estimated::no) one.runout = Estimated::per_record;
 

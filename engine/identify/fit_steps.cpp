@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "cutter/flutes.h"
 #include "identify/fit_start.h"
+#include "identify/low_pass.h"
 #include "identify/uncertainty.h"
 
 namespace millstudy::identify {
@@ -105,38 +106,44 @@ Solved solve(const cutter::Cutter& cutter, const std::vector<Record>& records,
 Agreement agreement_of(const JointProblem& problem, std::size_t record,
                        std::array<std::vector<double>, 3>* predicted) {
   const RecordModel& model = problem.model(record);
-  const std::size_t samples = model.samples();
   const std::vector<int>& axes = model.axes();
-  Agreement out{{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown}};
-  std::array<double, 3> squares{};
-  if (predicted != nullptr) {
-    for (const int axis : axes) (*predicted)[axis].resize(samples);
-  }
-  model.for_each_stretch(problem.states()[record], {}, [&](Stretch& stretch) {
+  const Trace& trace = model.record().trace;
+  std::array<std::vector<double>, 3> forces;
+  for (const int axis : axes) forces[axis].reserve(model.samples());
+  model.for_each_sample(problem.states()[record], {}, [&](Stretch& stretch) {
     for (std::size_t a = 0; a < axes.size(); ++a) {
-      const Eigen::Index row = static_cast<Eigen::Index>(a) * stretch.samples;
-      squares[axes[a]] += stretch.residual.segment(row, stretch.samples).squaredNorm();
-      if (predicted == nullptr) continue;
-      for (int i = 0; i < stretch.samples; ++i) {
-        (*predicted)[axes[a]][stretch.first + static_cast<std::size_t>(i)] =
-            stretch.predicted[row + i];
-      }
+      const auto part = stretch.predicted.segment(static_cast<Eigen::Index>(a) * stretch.samples,
+                                                  stretch.samples);
+      forces[axes[a]].insert(forces[axes[a]].end(), part.begin(), part.end());
     }
   });
+  Agreement out{{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown}};
+  const double below = problem.settings().below;  // what is compared is what was fitted
   for (const int axis : axes) {
-    const std::vector<double>& force = model.record().trace.force[axis];
-    double mean = 0.0, total = 0.0;
-    for (const double f : force) mean += f / static_cast<double>(samples);
-    for (const double f : force) total += (f - mean) * (f - mean);
-    out.rmse[axis] = std::sqrt(squares[axis] / static_cast<double>(samples));
-    out.r_squared[axis] = total > 0.0 ? 1.0 - squares[axis] / total : kUnknown;
+    const auto compared = [&](const std::vector<double>& signal) {
+      return below > 0.0 ? low_pass(signal, below, trace.sampling_rate) : signal;
+    };
+    const std::vector<double> measured = compared(trace.force[axis]);
+    const std::vector<double> modelled = compared(forces[axis]);
+    const double count = static_cast<double>(measured.size());
+    double mean = 0.0, squares = 0.0, total = 0.0;
+    for (const double f : measured) mean += f / count;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      squares += (modelled[i] - measured[i]) * (modelled[i] - measured[i]);
+      total += (measured[i] - mean) * (measured[i] - mean);
+    }
+    out.rmse[axis] = std::sqrt(squares / count);
+    out.r_squared[axis] = total > 0.0 ? 1.0 - squares / total : kUnknown;
   }
+  if (predicted != nullptr) *predicted = std::move(forces);
   return out;
 }
 
 LeaveOneOut leave_one_out(const cutter::Cutter& cutter, const std::vector<Record>& records,
                           const FitSettings& settings, const std::vector<RecordState>& solved) {
   const std::size_t count = records.size();
+  FitSettings quiet = settings;
+  quiet.progress = nullptr;
   LeaveOneOut out{std::vector<std::vector<double>>(count), std::vector<Agreement>(count), 0.0};
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) {
     std::vector<Record> others;
@@ -146,7 +153,7 @@ LeaveOneOut leave_one_out(const cutter::Cutter& cutter, const std::vector<Record
       others.push_back(records[i]);
       states.push_back(solved[i]);
     }
-    const Solved without = solve(cutter, others, settings, states);
+    const Solved without = solve(cutter, others, quiet, states);
     const RecordState& found = without.problem.states().front();
     RecordState state = solved[r];
     for (const Parameter& p : without.problem.shared()) {
@@ -154,7 +161,7 @@ LeaveOneOut leave_one_out(const cutter::Cutter& cutter, const std::vector<Record
       value_of(state, p) = value_of(found, p);
     }
     const std::vector<Record> one = {records[r]};
-    FitSettings alone = settings;
+    FitSettings alone = quiet;
     alone.weigh_records_alike = false;
     JointProblem predicted(cutter, one, alone, {state});
     predicted.keep_shared();

@@ -138,6 +138,24 @@ class PriorCost : public ceres::CostFunction {
   double weight_;
 };
 
+/// Tells how far the solver is, and stops it.
+class Watch : public ceres::IterationCallback {
+ public:
+  Watch(const FitSettings& settings, double residuals)
+      : settings_(settings), residuals_(residuals) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (settings_.progress) {
+      settings_.progress(summary.iteration, std::sqrt(2.0 * summary.cost / residuals_));
+    }
+    return settings_.stop && *settings_.stop ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const FitSettings& settings_;
+  double residuals_;
+};
+
 std::vector<double> values(const RecordState& state, const std::vector<Parameter>& parameters) {
   std::vector<double> out;
   for (const Parameter& p : parameters) out.push_back(value_of(state, p));
@@ -193,8 +211,15 @@ JointProblem::Outcome JointProblem::solve(double prior_noise) {
   options.parameter_tolerance = 1e-3 * settings_.tolerance;
   options.gradient_tolerance = 0.0;
   options.logging_type = ceres::SILENT;
+  double residuals = 0.0;
+  for (const RecordModel& model : models_) {
+    residuals += static_cast<double>(model.axes().size() * model.residuals());
+  }
+  Watch watch(settings_, residuals);
+  options.callbacks.push_back(&watch);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  if (settings_.stop && *settings_.stop) throw Stopped("the fit was stopped");
   states_ = evaluation.states();
   return {summary.termination_type == ceres::CONVERGENCE,
           static_cast<int>(summary.iterations.size()), summary.final_cost, summary.message};

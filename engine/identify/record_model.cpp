@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/units.h"
+#include "identify/low_pass.h"
 #include "identify/phase_spline.h"
 
 namespace millstudy::identify {
@@ -145,10 +146,62 @@ RecordModel::RecordModel(const cutter::Cutter& cutter, const Record& record,
                          const FitSettings& settings)
     : cutter_(cutter),
       record_(record),
-      wanted_{settings.model == Model::per_height, settings.model == Model::exponential} {
+      wanted_{settings.model == Model::per_height, settings.model == Model::exponential},
+      below_(settings.below) {
   for (int axis = 0; axis < 3; ++axis) {
     if (settings.axes[axis] && record.trace.has_axis(axis)) axes_.push_back(axis);
   }
+  for (const int axis : axes_) {
+    if (below_ > 0.0) measured_below_.push_back(thinned(record.trace.force[axis]));
+  }
+}
+
+std::vector<double> RecordModel::thinned(std::span<const double> signal) const {
+  const double rate = record_.trace.sampling_rate;
+  return low_pass(signal, below_, rate,
+                  std::max<std::size_t>(1, static_cast<std::size_t>(rate / (4.0 * below_))));
+}
+
+void RecordModel::for_each_stretch(const RecordState& state, std::span<const Parameter> parameters,
+                                   const std::function<void(Stretch&)>& visit) const {
+  if (!(below_ > 0.0)) return for_each_sample(state, parameters, visit);
+  // By axis and column, the predicted force last.
+  const auto columns = static_cast<Eigen::Index>(parameters.size());
+  std::vector<Eigen::MatrixXd> whole(
+      axes_.size(), Eigen::MatrixXd(static_cast<Eigen::Index>(samples()), columns + 1));
+  for_each_sample(state, parameters, [&](Stretch& stretch) {
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      const auto row = static_cast<Eigen::Index>(a) * stretch.samples;
+      const auto first = static_cast<Eigen::Index>(stretch.first);
+      whole[a].block(first, 0, stretch.samples, columns) =
+          stretch.jacobian.middleRows(row, stretch.samples);
+      whole[a].col(columns).segment(first, stretch.samples) =
+          stretch.predicted.segment(row, stretch.samples);
+    }
+  });
+  Stretch low;
+  low.samples = static_cast<int>(residuals());
+  const Eigen::Index rows = low.samples;
+  low.residual.resize(static_cast<Eigen::Index>(axes_.size()) * rows);
+  low.predicted.resize(low.residual.size());
+  low.jacobian.resize(low.residual.size(), columns);
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    const Eigen::Index row = static_cast<Eigen::Index>(a) * rows;
+    tbb::parallel_for(Eigen::Index{0}, columns + 1, [&](Eigen::Index c) {
+      const std::vector<double> column =
+          thinned({whole[a].col(c).data(), static_cast<std::size_t>(whole[a].rows())});
+      const auto thin = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
+      if (c < columns) {
+        low.jacobian.col(c).segment(row, rows) = thin;
+      } else {
+        low.predicted.segment(row, rows) = thin;
+      }
+    });
+    low.residual.segment(row, rows) =
+        low.predicted.segment(row, rows) -
+        Eigen::Map<const Eigen::VectorXd>(measured_below_[a].data(), rows);
+  }
+  visit(low);
 }
 
 double RecordModel::middle() const {
@@ -170,8 +223,8 @@ double RecordModel::angle_at(const RecordState& state, double sample) const {
   return angle;
 }
 
-void RecordModel::for_each_stretch(const RecordState& state, std::span<const Parameter> parameters,
-                                   const std::function<void(Stretch&)>& visit) const {
+void RecordModel::for_each_sample(const RecordState& state, std::span<const Parameter> parameters,
+                                  const std::function<void(Stretch&)>& visit) const {
   cutter::Cutter cutter = cutter_;
   cutter.runout.offset = std::hypot(state.runout[0], state.runout[1]);
   cutter.runout.angle = std::atan2(state.runout[1], state.runout[0]);

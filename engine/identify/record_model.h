@@ -12,7 +12,7 @@ namespace millstudy::identify {
 /// Some samples of a record: what the model says there less what was measured, and its
 /// derivatives. Rows: all samples along the first fitted axis, then along the next.
 struct Stretch {
-  std::size_t first = 0;  ///< sample
+  std::size_t first = 0;  ///< residual of each axis
   int samples = 0;
   Eigen::VectorXd residual;   ///< [N]; shape (axes * samples)
   Eigen::MatrixXd jacobian;   ///< shape (axes * samples, parameters)
@@ -35,16 +35,30 @@ class RecordModel {
   /// Immersion angle of flute 0's tip at a sample, which may be before the first [rad].
   double angle_at(const RecordState& state, double sample) const;
 
-  /// Visits stretches from the first sample to the last; kernels run on all threads, visits one by
-  /// one.
+  /// Residuals per axis that for_each_stretch() has in all: the samples, or fewer below a
+  /// frequency.
+  std::size_t residuals() const {
+    return below_ > 0.0 ? measured_below_.front().size() : samples();
+  }
+
+  /// Visits stretches of residuals from the first to the last; kernels run on all threads, visits
+  /// one by one. Below a frequency (FitSettings::below) residuals are those of filtered forces,
+  /// four for each period of that frequency.
   void for_each_stretch(const RecordState& state, std::span<const Parameter> parameters,
                         const std::function<void(Stretch&)>& visit) const;
 
+  /// The same of the forces as they are, sample by sample.
+  void for_each_sample(const RecordState& state, std::span<const Parameter> parameters,
+                       const std::function<void(Stretch&)>& visit) const;
+
  private:
+  std::vector<double> thinned(std::span<const double> signal) const;
   cutter::Cutter cutter_;
   const Record& record_;
   force::ForceSensitivity::Wanted wanted_;
   std::vector<int> axes_;
+  double below_;
+  std::vector<std::vector<double>> measured_below_;  ///< by fitted axis
 };
 
 }  // namespace millstudy::identify

@@ -46,9 +46,9 @@ Clusters clusters_of(const JointProblem& problem, std::size_t record) {
   const RecordState& state = problem.states()[record];
   const std::vector<Parameter> parameters = problem.parameters();
   const auto size = static_cast<Index>(parameters.size());
-  const double samples = static_cast<double>(model.samples());
-  const double turns =
-      samples / model.record().trace.sampling_rate * state.spindle_speed / (2.0 * core::kPi);
+  const double residuals = static_cast<double>(model.residuals());
+  const double turns = static_cast<double>(model.samples()) / model.record().trace.sampling_rate *
+                       state.spindle_speed / (2.0 * core::kPi);
   const int count = std::max(kFewestClusters, static_cast<int>(turns));
   const NormalEquations none{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   Clusters out{std::vector<NormalEquations>(count, none), none};
@@ -56,7 +56,7 @@ Clusters clusters_of(const JointProblem& problem, std::size_t record) {
     problem.weigh(record, stretch);
     const auto cluster_of = [&](int i) {
       return std::min(count - 1,
-                      static_cast<int>(static_cast<double>(stretch.first + i) / samples * count));
+                      static_cast<int>(static_cast<double>(stretch.first + i) / residuals * count));
     };
     for (int from = 0; from < stretch.samples;) {
       const int cluster = cluster_of(from);

@@ -15,7 +15,18 @@
 
 namespace millstudy::study {
 
-enum class KeyType { number, integer, numbers, number_or_numbers, choice, flag, text, file };
+enum class KeyType {
+  number,
+  integer,
+  numbers,
+  number_or_numbers,
+  choice,
+  choices,  ///< a list of them
+  flag,
+  text,
+  file,
+  table,  ///< whoever reads it knows what it holds
+};
 
 /// Allowed numbers: from low to high, each end inclusive unless it is open.
 struct Range {
