@@ -40,6 +40,7 @@ struct FitOptions {
 struct ExportOptions {
   std::string result;
   std::string output;
+  std::int64_t point = -1;  ///< whose trace is written; -1: the table of all points
 };
 
 // Each verb prints its result to stdout and returns the exit code; bad input is thrown.

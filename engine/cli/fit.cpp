@@ -2,10 +2,9 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <sstream>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/fit_table.h"
@@ -15,10 +14,9 @@
 #include "core/units.h"
 #include "identify/choose_model.h"
 #include "identify/prepare_trace.h"
-#include "io/atomic_file.h"
 #include "io/fit_result.h"
-#include "io/resource_error.h"
 #include "io/sha256.h"
+#include "io/text_file.h"
 #include "io/toml_reader.h"
 #include "io/trace_file.h"
 #include "study/fit_file.h"
@@ -57,12 +55,11 @@ std::vector<identify::Record> read_records(const study::FitFile& fit, const std:
                                            std::vector<std::string>& warnings) {
   std::vector<identify::Record> records;
   std::vector<core::Fault> faults;
+  std::map<std::string, std::vector<std::string>> told;  // records by what is odd about them
   for (const study::FitRecord& record : fit.records) {
     try {
       identify::PreparedTrace prepared = read_trace(record.source, folder);
-      for (const std::string& warning : prepared.warnings) {
-        warnings.push_back(fmt::format("{}: {}", record.name, warning));
-      }
+      for (const std::string& warning : prepared.warnings) told[warning].push_back(record.name);
       records.push_back({record.name, std::move(prepared.trace), study::engagement(record.cut),
                          study::feed_rate(record.cut),
                          2.0 * core::kPi * record.cut.cut.spindle_speed});
@@ -76,18 +73,12 @@ std::vector<identify::Record> read_records(const study::FitFile& fit, const std:
     }
   }
   if (!faults.empty()) throw core::InputError(faults);
-  return records;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  io::AtomicFile file(path);
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t now = ::write(file.descriptor(), text.data() + written, text.size() - written);
-    if (now <= 0) throw io::ResourceError(fmt::format("{}: cannot be written", path));
-    written += static_cast<std::size_t>(now);
+  for (const auto& [warning, names] : told) {
+    const bool all = names.size() == records.size() && names.size() > 1;
+    warnings.push_back(fmt::format(
+        "{}: {}", all ? "all records" : fmt::format("{}", fmt::join(names, ", ")), warning));
   }
-  file.commit();
+  return records;
 }
 
 /// Estimates that all records share.
@@ -191,7 +182,7 @@ int fit(const FitOptions& options) {
     report.attributes.push_back(std::move(attribute));
   }
   io::write_fit_result(output, report);
-  write_text(coefficients, coefficients_toml(table, output));
+  io::write_text_file(coefficients, coefficients_toml(table, output));
   if (options.json) {
     fmt::print("{}\n", fit_json(table, output, coefficients));
   } else {

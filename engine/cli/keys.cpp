@@ -11,7 +11,7 @@ namespace millstudy::cli {
 int print_keys(const std::string& kind, bool markdown) {
   bool found = false;
   std::vector<const study::Kind*> kinds(study::kinds().begin(), study::kinds().end());
-  kinds.push_back(&study::fit_keys());
+  if (kind == "fit") kinds.push_back(&study::fit_keys());
   for (const study::Kind* known : kinds) {
     if (!kind.empty() && kind != known->name) continue;
     if (found) fmt::print("\n");
@@ -23,7 +23,7 @@ int print_keys(const std::string& kind, bool markdown) {
     for (const study::Kind* known : kinds) {
       names += (names.empty() ? "" : ", ") + std::string(known->name);
     }
-    throw core::InputError(fmt::format("there is no kind \"{}\": one of {}", kind, names));
+    throw core::InputError(fmt::format("there is no kind \"{}\": one of {}, fit", kind, names));
   }
   return kDone;
 }

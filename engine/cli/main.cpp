@@ -110,6 +110,9 @@ int main(int argc, char** argv) {
   exporting->add_option("result", table.result, "result file")->required()->type_name("R.h5");
   exporting->add_option("-o,--output", table.output, "table: .csv or .npy")->required();
 
+  exporting->add_option("--point", table.point, "the trace of this point, counted from 0, as .csv")
+      ->check(CLI::NonNegativeNumber);
+
   std::string kind;
   bool markdown = false;
   CLI::App* keys =

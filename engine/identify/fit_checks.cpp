@@ -12,10 +12,11 @@
 namespace millstudy::identify {
 namespace {
 
-bool same_feed(const std::vector<Record>& records, int flutes) {
+/// Of one cutter, so that its flutes do not count.
+bool same_feed(const std::vector<Record>& records) {
   double low = INFINITY, high = 0.0;
   for (const Record& record : records) {
-    const double feed = record.feed_rate * 2.0 * core::kPi / (record.spindle_speed * flutes);
+    const double feed = record.feed_rate * 2.0 * core::kPi / record.spindle_speed;
     low = std::min(low, feed);
     high = std::max(high, feed);
   }
@@ -105,7 +106,18 @@ std::vector<std::string> words_on(const std::vector<Record>& records, const FitR
                                 parts[0].second, parts[1].second, result.condition_number, next));
   }
   const std::size_t count = records.size();
-  if (same_feed(records, 1) && count > 0) {
+  constexpr double kPoor = 0.95;
+  const bool poor =
+      std::any_of(result.records.begin(), result.records.end(), [](const RecordFit& r) {
+        return r.agreement.r_squared[0] < kPoor || r.agreement.r_squared[1] < kPoor;
+      });
+  if (count >= 3 && !same_feed(records) && poor) {
+    words.push_back(
+        "the model leaves part of the forces unexplained, and the records have several feeds: the "
+        "coefficients to use in studies are those of method = \"average\", which depend on neither "
+        "dynamometer, phase nor runout");
+  }
+  if (same_feed(records) && count > 0) {
     words.push_back(
         "all records have one feed: chip and edge coefficients are told apart only by the shape "
         "of the force over a revolution, which a ringing dynamometer or a wrong model bends; "

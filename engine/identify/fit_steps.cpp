@@ -76,6 +76,7 @@ Solved solve(const cutter::Cutter& cutter, const std::vector<Record>& records,
   FitSettings simpler = settings;
   simpler.phase_drift_knots = 0;
   simpler.estimate_dynamometer = false;
+  simpler.tolerance = std::max(1e-4, settings.tolerance);  // only where the next begins
   std::vector<RecordState> states = starts;
   const bool in_steps = settings.phase_drift_knots > 0 || settings.estimate_dynamometer;
   const bool drifts_already =

@@ -2,6 +2,7 @@
 #include "study/fit_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "core/units.h"
@@ -444,7 +445,9 @@ class Reader {
         !item.find("axes") && !(root_.find("trace") && root_.find("trace")->find("axes"))) {
       faults_.add(item.place, missing(*fit_keys().find_key("trace.axes")));
     }
-    if (record.name.empty()) record.name = record.source.file;
+    if (record.name.empty()) {
+      record.name = std::filesystem::path(record.source.file).filename().string();
+    }
     read_cut(cut && cut->is_table() ? cut : nullptr, record, told);
     file_.records.push_back(std::move(record));
     file_.cutter = file_.records.front().cut.cutter;

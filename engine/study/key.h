@@ -136,6 +136,7 @@ std::span<const Key> coefficient_keys();  ///< [coefficients]
 std::span<const Key> cut_keys();          ///< [cut]
 std::span<const Key> stock_keys();        ///< [cut], for kinds with a path
 std::span<const Key> numerics_keys();     ///< [numerics]
+std::span<const Key> measurement_keys();  ///< [measurement], for kind force
 
 /// The setting that a value of a file stands for.
 /// @throws core::InputError at the value's place, of a list with every fault: wrong type, not

@@ -77,7 +77,7 @@ std::span<const Key> source_keys() {
 std::span<const Key> record_keys() {
   static const std::vector<Key> keys = {
       {"record.file", kText, "", {}, Required{}, "file of the trace, relative to the fit file; all keys of [trace] may stand here too"},
-      {"record.name", kText, "", {}, "", "for tables; else the file"},
+      {"record.name", kText, "", {}, "", "for tables; else the name of the file"},
       {"record.cut", kTable, "", {}, Optional{}, "keys of [cut] that are different for this record"},
       {"record.phase_deg", kNumber, "deg", within(1e6), Optional{},
        "immersion angle of flute 0's tip at the first sample, where phase is not estimated"},

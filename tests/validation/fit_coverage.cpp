@@ -44,9 +44,10 @@ int main(int argc, char** argv) {
   std::vector<std::array<double, 6>> errors(repeats), deviations(repeats);
   std::vector<std::array<bool, 6>> held(repeats);
   tbb::parallel_for(0, repeats, [&](int n) {
-    std::mt19937_64 random(1000 + n);
     std::vector<Record> records = clean;
-    for (Record& record : records) testing::add_noise(record, kDeviation, kCorrelation, random);
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      add_noise(records[r].trace, kDeviation, kCorrelation, 10 * static_cast<std::uint64_t>(n) + r);
+    }
     const FitResult result = fit(truth.cutter, records, {});
     for (int i = 0; i < 6; ++i) {
       const Estimate& e = result.estimates[i];
@@ -56,8 +57,8 @@ int main(int argc, char** argv) {
     }
   });
   // 2000 draws tell a coverage to +-0.5 % (one standard deviation), fewer less.
-  const double slack = 2.0 * std::sqrt(0.05 * 0.95) *
-                       (1.0 / std::sqrt(repeats) - 1.0 / std::sqrt(2000.0));
+  const double slack =
+      2.0 * std::sqrt(0.05 * 0.95) * (1.0 / std::sqrt(repeats) - 1.0 / std::sqrt(2000.0));
   bool good = true;
   for (int i = 0; i < 6; ++i) {
     double coverage = 0.0, mean = 0.0, variance = 0.0, deviation = 0.0;

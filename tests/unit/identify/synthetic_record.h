@@ -2,15 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/units.h"
-#include "force/nonlinear_force.h"
 #include "identify/fit.h"
+#include "identify/synthetic_trace.h"
 
 /// Measured forces that are known to the last digit, by a kernel that fits do not use.
 namespace millstudy::identify::testing {
@@ -25,51 +22,24 @@ struct Truth {
   double spindle_speed = 80.0;  ///< [rad/s]
   double phase = 0.0;           ///< of the tip of flute 0 at the first sample [rad]
   std::array<double, 3> offset{};
+  std::array<std::vector<dynamics::DynamometerMode>, 3> dynamometer = {};
   double sampling_rate = 5000.0;
   std::size_t samples = 1500;
 };
 
 inline Record make_record(const Truth& truth, const std::string& name) {
-  const auto edges = std::make_shared<const force::CuttingEdges>(
-      truth.cutter, truth.engagement.axial_depth, truth.variation);
-  const force::NonlinearForce kernel(edges, {});
-  const double feed =
-      truth.feed_rate * 2.0 * core::kPi / (truth.spindle_speed * truth.cutter.flutes);
-  const force::Arc arc = truth.engagement.arc();
-  Record record{name,
-                {name, truth.sampling_rate, 0.0, {}},
-                truth.engagement,
-                truth.feed_rate,
-                truth.spindle_speed};
-  for (std::size_t i = 0; i < truth.samples; ++i) {
-    const double angle =
-        truth.phase + truth.spindle_speed * static_cast<double>(i) / truth.sampling_rate;
-    std::array<double, 3> sum = truth.offset;
-    for (std::size_t j = 0; j < edges->flutes().size(); ++j) {
-      const auto force =
-          kernel.of_flute(static_cast<int>(j), angle + edges->flutes()[j].position, {&arc, 1},
-                          truth.coefficients, {feed}, force::Rows::forces);
-      for (int axis = 0; axis < 3; ++axis) sum[axis] += force[axis];
-    }
-    for (int axis = 0; axis < 3; ++axis) record.trace.force[axis].push_back(sum[axis]);
-  }
-  return record;
-}
-
-/// Adds noise that is correlated from sample to sample.
-///
-/// @param deviation    [N]
-/// @param correlation  of neighbours
-inline void add_noise(Record& record, double deviation, double correlation,
-                      std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  for (std::vector<double>& force : record.trace.force) {
-    double noise = normal(random);
-    for (double& f : force) {
-      f += deviation * noise;
-      noise = correlation * noise + std::sqrt(1.0 - correlation * correlation) * normal(random);
-    }
-  }
+  Measurement measurement;
+  measurement.sampling_rate = truth.sampling_rate;
+  measurement.samples = truth.samples;
+  measurement.feed_rate = truth.feed_rate;
+  measurement.spindle_speed = truth.spindle_speed;
+  measurement.phase = truth.phase;
+  measurement.offset = truth.offset;
+  measurement.dynamometer = truth.dynamometer;
+  return {name,
+          synthetic_trace(truth.cutter, truth.engagement, truth.coefficients, truth.variation,
+                          measurement),
+          truth.engagement, truth.feed_rate, truth.spindle_speed};
 }
 
 /// A two-flute slot of GGG-70 with runout.
