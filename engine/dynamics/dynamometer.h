@@ -20,7 +20,7 @@ std::complex<double> transfer(std::span<const DynamometerMode> modes, double fre
 /// Displacement of a mode over its static one, sample by sample, (D41): exact for a force that goes
 /// in straight lines from sample to sample.
 ///
-/// Against the analytic response to such a force: 1e-13 of the largest (measured over 1e4 samples).
+/// Against the analytic response to such a force: 1e-14 (measured over 400 random samples).
 class ModeFilter {
  public:
   /// @param sampling_interval  [s], > 0
