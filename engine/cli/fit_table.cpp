@@ -145,6 +145,9 @@ std::string fit_json(const FitTable& table, const std::string& result,
   if (table.fit) {
     json["converged"] = table.fit->converged;
     json["iterations"] = table.fit->iterations;
+    json["seconds"] = {{"start", table.fit->start_seconds},
+                       {"solve", table.fit->solve_seconds},
+                       {"errors", table.fit->error_seconds}};
     json["prediction_error"] = json_number(table.fit->prediction_error);
   } else {
     for (const double r2 : table.average->r_squared) json["r_squared"].push_back(json_number(r2));

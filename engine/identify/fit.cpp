@@ -2,9 +2,11 @@
 #include "identify/fit.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 #include "core/units.h"
 #include "identify/fit_steps.h"
@@ -15,6 +17,18 @@ namespace millstudy::identify {
 namespace {
 
 constexpr double kTurn = 2.0 * core::kPi;
+
+/// Wall time since the last lap.
+class Clock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 RecordFit record_fit(const JointProblem& problem, std::size_t r) {
   const RecordModel& model = problem.model(r);
@@ -72,8 +86,11 @@ FitResult fit(const cutter::Cutter& cutter, const std::vector<Record>& records,
   check(cutter, records, settings);
   FitResult result;
   result.settings = settings;
+  Clock clock;
   const std::vector<RecordState> starts = find_starts(cutter, records, settings, result.warnings);
+  result.start_seconds = clock.lap();
   const Solved solved = solve(cutter, records, settings, starts);
+  result.solve_seconds = clock.lap();
   const JointProblem& problem = solved.problem;
   const Uncertainty sure = uncertainty(problem, solved.prior_noise);
 
@@ -142,6 +159,7 @@ FitResult fit(const cutter::Cutter& cutter, const std::vector<Record>& records,
           "them all; the intervals are those of the jackknife over records");
     }
   }
+  result.error_seconds = clock.lap();
   for (std::string& words : words_on(records, result, shared, sure.weakest)) {
     result.warnings.push_back(std::move(words));
   }

@@ -152,6 +152,9 @@ struct FitResult {
   int iterations = 0;
   double cost = 0.0;                  ///< half the sum of squared (weighted, robust) residuals
   std::string summary;                ///< how the solver ended
+  double start_seconds = 0.0;         ///< wall time of finding where to begin
+  double solve_seconds = 0.0;         ///< of the joint fit
+  double error_seconds = 0.0;         ///< of errors and records left out
   std::vector<std::string> warnings;  ///< what the user should know, in whole sentences
 };
 

@@ -111,9 +111,9 @@ std::vector<std::string> words_on(const std::vector<Record>& records, const FitR
       std::any_of(result.records.begin(), result.records.end(), [](const RecordFit& r) {
         return r.agreement.r_squared[0] < kPoor || r.agreement.r_squared[1] < kPoor;
       });
-  if (count >= 3 && !same_feed(records) && poor) {
+  if (count >= 3 && !same_feed(records) && (poor || result.settings.below > 0.0)) {
     words.push_back(
-        "the model leaves part of the forces unexplained, and the records have several feeds: the "
+        "the model leaves part of the forces out, and the records have several feeds: the "
         "coefficients to use in studies are those of method = \"average\", which depend on neither "
         "dynamometer, phase nor runout");
   }
