@@ -13,6 +13,7 @@
 #include "core/ordered_parallel.h"
 #include "core/units.h"
 #include "identify/choose_model.h"
+#include "identify/conditioning.h"
 #include "identify/prepare_trace.h"
 #include "io/fit_result.h"
 #include "io/sha256.h"
@@ -60,9 +61,17 @@ std::vector<identify::Record> read_records(const study::FitFile& fit, const std:
     try {
       identify::PreparedTrace prepared = read_trace(record.source, folder);
       for (const std::string& warning : prepared.warnings) told[warning].push_back(record.name);
-      records.push_back({record.name, std::move(prepared.trace), study::engagement(record.cut),
-                         study::feed_rate(record.cut),
-                         2.0 * core::kPi * record.cut.cut.spindle_speed});
+      const double speed = 2.0 * core::kPi * record.cut.cut.spindle_speed;
+      identify::Trace& trace = prepared.trace;
+      if (record.source.offset_from_air) identify::remove_air_offset(trace, speed);
+      if (record.source.cutting_only) {
+        trace = identify::part_of(trace, identify::cutting_part(trace, speed));
+      }
+      records.push_back({record.name, std::move(trace), study::engagement(record.cut),
+                         study::feed_rate(record.cut), speed});
+      for (std::string& words : identify::look_over(fit.cutter, records.back())) {
+        warnings.push_back(std::move(words));
+      }
     } catch (const core::InputError& error) {
       for (core::Fault fault : error.faults()) {
         if (fault.place.file.empty()) fault.place = record.source.place;

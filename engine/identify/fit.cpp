@@ -87,7 +87,7 @@ FitResult fit(const cutter::Cutter& cutter, const std::vector<Record>& records,
   FitResult result;
   result.settings = settings;
   Clock clock;
-  const std::vector<RecordState> starts = find_starts(cutter, records, settings, result.warnings);
+  const std::vector<RecordState> starts = find_starts(cutter, records, settings);
   result.start_seconds = clock.lap();
   const Solved solved = solve(cutter, records, settings, starts);
   result.solve_seconds = clock.lap();

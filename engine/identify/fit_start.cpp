@@ -10,47 +10,12 @@
 #include "core/units.h"
 #include "cutter/flutes.h"
 #include "identify/joint_problem.h"
+#include "identify/synchronous_average.h"
 
 namespace millstudy::identify {
 namespace {
 
 constexpr double kTurn = 2.0 * core::kPi;
-
-/// One revolution, averaged over all; bins that no sample fell into are filled from both sides.
-///
-/// Bin i is at the angle (i + 1/2) 2 pi / bins after the spindle's position at the middle of the
-/// record.
-Trace mean_revolution(const Trace& trace, double spindle_speed) {
-  const double per_turn = kTurn / spindle_speed * trace.sampling_rate;
-  const int bins = std::clamp(static_cast<int>(per_turn), 24, 360);
-  const double middle = 0.5 * static_cast<double>(trace.size() - 1);
-  std::vector<double> counts(bins, 0.0);
-  std::vector<int> bin_of(trace.size());
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    const double turns = (static_cast<double>(i) - middle) / per_turn;
-    bin_of[i] = std::min(bins - 1, static_cast<int>((turns - std::floor(turns)) * bins));
-    counts[bin_of[i]] += 1.0;
-  }
-  Trace mean{trace.source, spindle_speed * bins / kTurn, 0.0, {}};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!trace.has_axis(axis)) continue;
-    std::vector<double>& force = mean.force[axis];
-    force.assign(bins, 0.0);
-    for (std::size_t i = 0; i < trace.size(); ++i) force[bin_of[i]] += trace.force[axis][i];
-    for (int b = 0; b < bins; ++b) {
-      if (counts[b] > 0.0) force[b] /= counts[b];
-    }
-    for (int b = 0; b < bins; ++b) {
-      if (counts[b] > 0.0) continue;
-      int before = 1, after = 1;
-      while (before < bins && counts[(b - before + bins) % bins] == 0.0) ++before;
-      while (after < bins && counts[(b + after) % bins] == 0.0) ++after;
-      const double low = force[(b - before + bins) % bins], high = force[(b + after) % bins];
-      force[b] = (low * after + high * before) / (before + after);
-    }
-  }
-  return mean;
-}
 
 /// A phase and the coefficients that fit it best.
 struct Candidate {
@@ -169,6 +134,18 @@ std::vector<RecordState> followed(const cutter::Cutter& cutter, const Record& tu
 
 }  // namespace
 
+double unexplained_part(const cutter::Cutter& cutter, const Record& turn) {
+  double total = 0.0;
+  for (const std::vector<double>& force : turn.trace.force) {
+    double mean = 0.0;
+    for (const double f : force) mean += f / static_cast<double>(force.size());
+    for (const double f : force) total += (f - mean) * (f - mean);
+  }
+  const std::vector<Candidate> best = best_phases(cutter, turn, {});
+  if (best.empty() || best.front().k[0] <= 0.0 || !(total > 0.0)) return 1.0;
+  return std::min(1.0, best.front().squares / total);
+}
+
 void renumber_flutes(RecordState& state, int flutes, int steps) {
   const double angle = kTurn * steps / flutes;
   state.phase += angle;
@@ -180,7 +157,7 @@ void renumber_flutes(RecordState& state, int flutes, int steps) {
 RecordState find_start(const cutter::Cutter& cutter, const Record& record,
                        const FitSettings& settings, double known_phase, double spindle_speed) {
   Record turn = record;
-  turn.trace = mean_revolution(record.trace, spindle_speed);
+  turn.trace = synchronous_average(record.trace, spindle_speed);
   turn.spindle_speed = spindle_speed;
   FitSettings one = settings;
   one.progress = nullptr;

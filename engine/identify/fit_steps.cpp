@@ -10,6 +10,7 @@
 #include "cutter/flutes.h"
 #include "identify/fit_start.h"
 #include "identify/low_pass.h"
+#include "identify/spindle_speed.h"
 #include "identify/uncertainty.h"
 
 namespace millstudy::identify {
@@ -45,19 +46,16 @@ void align_runout(std::vector<RecordState>& states, int flutes) {
 
 std::vector<RecordState> find_starts(const cutter::Cutter& cutter,
                                      const std::vector<Record>& records,
-                                     const FitSettings& settings,
-                                     std::vector<std::string>& warnings) {
+                                     const FitSettings& settings) {
   std::vector<RecordState> states(records.size());
-  std::vector<std::string> remarks(records.size());
   tbb::parallel_for(std::size_t{0}, records.size(), [&](std::size_t r) {
     const Record& record = records[r];
-    double speed = record.spindle_speed;
+    const double speed = settings.spindle_speed == Estimated::no
+                             ? record.spindle_speed
+                             : estimate_spindle_speed(record.trace, record.spindle_speed).value;
     const double phase = r < settings.known_phase.size() ? settings.known_phase[r] : 0.0;
     states[r] = find_start(cutter, record, settings, phase, speed);
   });
-  for (std::string& remark : remarks) {
-    if (!remark.empty()) warnings.push_back(std::move(remark));
-  }
   if (settings.runout == Estimated::shared && settings.phase != Estimated::no &&
       cutter::has_equal_flutes(cutter)) {
     align_runout(states, cutter.flutes);

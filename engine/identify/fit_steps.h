@@ -13,8 +13,7 @@ void check(const cutter::Cutter& cutter, const std::vector<Record>& records,
 /// Where the search begins: each record at its own optimum, what is shared at the middle of them.
 std::vector<RecordState> find_starts(const cutter::Cutter& cutter,
                                      const std::vector<Record>& records,
-                                     const FitSettings& settings,
-                                     std::vector<std::string>& warnings);
+                                     const FitSettings& settings);
 
 /// A problem at its optimum, and how it got there.
 struct Solved {

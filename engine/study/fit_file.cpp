@@ -400,6 +400,10 @@ class Reader {
       source.window = {window[0], window[1]};
       return;
     }
+    if (const bool* flag = std::get_if<bool>(&setting)) {
+      (name == "cutting_only" ? source.cutting_only : source.offset_from_air) = *flag;
+      return;
+    }
     const double x = std::get<double>(setting);
     if (name == "sampling_rate_Hz") source.sampling_rate = x;
     if (name == "point") source.point = static_cast<std::int64_t>(x);

@@ -25,6 +25,8 @@ struct TraceSource {
   core::Place axes_place;
   std::optional<double> sampling_rate;          ///< [Hz]
   std::optional<std::array<double, 2>> window;  ///< from, to [s]
+  bool cutting_only = false;
+  bool offset_from_air = false;
   std::optional<std::int64_t> point;
   std::optional<int> segment;
 };
