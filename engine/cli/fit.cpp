@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "cli/commands.h"
+#include "cli/fit_outputs.h"
 #include "cli/fit_table.h"
 #include "cli/provenance.h"
 #include "cli/stop_signal.h"
@@ -99,25 +100,22 @@ std::vector<identify::Estimate> shared_of(const std::vector<identify::Estimate>&
   return shared;
 }
 
+int interrupted() {
+  fmt::print(stderr, "interrupted: nothing was written\n");
+  return kInterrupted;
+}
+
 }  // namespace
 
 int fit(const FitOptions& options) {
   const core::Value root = io::read_toml(options.file);
   const study::FitFile file = study::read_fit_file(root, io::read_toml);
-  const std::string output = options.output.empty() ? file.name + ".h5" : options.output;
-  const std::string coefficients =
-      options.coefficients.empty()
-          ? fs::path(output).replace_extension(".coefficients.toml").string()
-          : options.coefficients;
-  for (const std::string& path : {output, coefficients}) {
-    std::error_code different;
-    if (fs::equivalent(path, options.file, different)) {
-      throw core::InputError({path, 0}, "is the fit file itself: give another file with -o");
-    }
-  }
   const std::string folder = fs::path(options.file).parent_path().string();
+  const auto [output, coefficients] = fit_outputs(options, file, folder);
   std::vector<std::string> warnings;
+  const std::atomic<bool>& stop = stop_on_signal();
   const std::vector<identify::Record> records = read_records(file, folder, warnings);
+  if (stop) return interrupted();
 
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -137,7 +135,7 @@ int fit(const FitOptions& options) {
     warnings.insert(warnings.end(), average.warnings.begin(), average.warnings.end());
   } else {
     identify::FitSettings settings = file.settings;
-    settings.stop = &stop_on_signal();
+    settings.stop = &stop;
     if (!options.quiet) {
       settings.progress = [](int iteration, double residual) {
         fmt::print(stderr, "iteration {:3}: root mean square residual {:.4g} N\n", iteration,
@@ -151,8 +149,7 @@ int fit(const FitOptions& options) {
         choice.best = identify::fit(file.cutter, records, settings);
       }
     } catch (const identify::Stopped&) {
-      fmt::print(stderr, "interrupted: nothing was written\n");
-      return kInterrupted;
+      return interrupted();
     }
     report.fit = table.fit = &choice.best;
     report.estimates = shared_of(choice.best.estimates);

@@ -188,6 +188,7 @@ class Reader {
     });
     if (!fit->find("name")) miss("fit.name");
     check_name();
+    check_average(*fit);
     if (s.loss != identify::Loss::none && !(s.loss_scale > 0.0) && !fit->find("loss_scale_N")) {
       faults_.add(fit->find("loss")->place,
                   "fit.loss needs fit.loss_scale_N, the residual from which it counts less");
@@ -211,6 +212,17 @@ class Reader {
     s.phase_drift_knots = has(estimate, "phase_drift") ? knots : 0;
     s.estimate_dynamometer = has(estimate, "dynamometer");
     estimate_place_ = estimate_value->place;
+  }
+
+  /// A regression of means has no use for these, and would give another answer than was asked for.
+  void check_average(const core::Value& fit) {
+    if (file_.method != FitMethod::average) return;
+    for (const char* name : {"model", "axes", "weights", "loss", "below_Hz", "fixed", "prior"}) {
+      if (const core::Value* given = fit.find(name)) {
+        faults_.add(given->place,
+                    fmt::format("fit.{} is for method = \"instantaneous\" only", name));
+      }
+    }
   }
 
   void check_name() {

@@ -4,14 +4,16 @@ import json
 import math
 import re
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 
 import h5py
 import numpy as np
 import xarray
 
-from program import SLOT, SOURCE, ProgramTest
+from program import PROGRAM, SLOT, SOURCE, ProgramTest
 
 TRUTH = {"Ktc": 1800.0, "Krc": 700.0, "Kac": 350.0, "Kte": 22.0, "Kre": 30.0, "Kae": 4.0}
 FIT = """\
@@ -238,6 +240,44 @@ class Fits(ProgramTest):
     def test_one_feed_cannot_give_six_coefficients_from_means(self):
         self.write_slots()
         self.faults(FIT + RECORD.format(200) + RECORD.format(200) + RECORD.format(200), "tell", "two feeds")
+
+    def test_no_file_that_a_fit_reads_is_written_over(self):
+        self.write(FIT + self.write_slots(), "fit.toml")
+        trace = (self.folder / "400.csv").read_bytes()
+        for option in ("-o", "--coefficients"):
+            self.assertIn("400.csv: holds the trace of record 400.csv",
+                          self.refused("fit", "fit.toml", option, "./400.csv"))
+            self.assertIn("is the fit file itself", self.refused("fit", "fit.toml", option, "fit.toml"))
+        self.assertEqual((self.folder / "400.csv").read_bytes(), trace)
+        (self.folder / "400.csv").rename(self.folder / "slots.h5")  # what -o is where nobody says
+        self.write((self.folder / "fit.toml").read_text().replace("400.csv", "slots.h5"), "fit.toml")
+        self.assertIn("slots.h5: holds the trace", self.refused("fit", "fit.toml"))
+        self.assertEqual((self.folder / "slots.h5").read_bytes(), trace)
+
+    def test_both_outputs_are_written_or_none(self):
+        self.write(FIT + self.write_slots(), "fit.toml")
+        self.assertIn("cannot be one file",
+                      self.refused("fit", "fit.toml", "-o", "a.toml", "--coefficients", "./a.toml"))
+        self.refused("fit", "fit.toml", "--coefficients", "nowhere/a.toml")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         ["200.csv", "400.csv", "600.csv", "fit.toml"])
+
+    def test_an_interrupted_fit_leaves_nothing_behind(self):
+        self.copy_traces()
+        for wait in (0.3, 1.5):  # while records are read, and while it iterates
+            run = subprocess.Popen([PROGRAM, "fit", "traces/fit.toml", "-o", "r.h5"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            time.sleep(wait)
+            run.send_signal(signal.SIGINT)
+            told = run.communicate()[1]
+            self.assertEqual(run.returncode, 4, told)
+            self.assertIn("interrupted: nothing was written", told)
+            self.assertEqual([path.name for path in self.folder.iterdir()], ["traces"])
+
+    def test_method_average_refuses_what_it_would_ignore(self):
+        extra = 'fixed = { Kte_N_per_mm = 5.0 }\nloss = "none"\nbelow_Hz = 300.0\n[cutter]'
+        self.faults(FIT.replace("[cutter]", extra) + self.write_slots(), "fit.toml:5: fit.fixed is for method",
+                    "fit.toml:6: fit.loss is", "fit.toml:7: fit.below_Hz is")
 
     def test_a_study_is_no_fit_file(self):
         self.faults(SLOT, "this is a study: millstudy run computes it")
