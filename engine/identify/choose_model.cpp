@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "identify/choose_model.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -43,10 +44,15 @@ ModelChoice choose_model(const cutter::Cutter& cutter, const std::vector<Record>
     errors += fmt::format("{}{} {:.2f} %", errors.empty() ? "" : ", ", name_of(trial.model),
                           100.0 * trial.prediction_error);
   }
+  const bool preferred = std::any_of(
+      choice.trials.begin(), choice.trials.end(),
+      [&](const Trial& trial) { return trial.prediction_error < choice.best.prediction_error; });
   choice.reason = fmt::format(
-      "model {} was chosen: it predicts left-out records best (error over the scatter of the "
-      "forces: {})",
-      name_of(choice.best.settings.model), errors);
+      "model {} was chosen: {} (error over the scatter of the forces: {})",
+      name_of(choice.best.settings.model),
+      preferred ? "no more complicated one predicts left-out records better by a hundredth"
+                : "it predicts left-out records best",
+      errors);
   return choice;
 }
 

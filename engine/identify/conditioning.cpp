@@ -175,13 +175,14 @@ std::string axis_words(const cutter::Cutter& cutter, const Record& record, const
   };
   const double given = unexplained({{0, 1, 2}, {1.0, 1.0, 1.0}});
   SignedOrder best{};
+  constexpr double kBad = 0.3, kBetter = 0.4;
+  if (given < kBad) return "";
   double least = given;
   for (const SignedOrder& order : signed_orders()) {
     const double part = unexplained(order);
     if (part < least) least = part, best = order;
   }
-  constexpr double kBad = 0.3, kBetter = 0.4;
-  if (given < kBad || least > kBetter * given) return "";
+  if (least > kBetter * given) return "";
   std::string map;
   for (int axis = 0; axis < 3; ++axis) {
     map += fmt::format("{}{} = {}{}", axis == 0 ? "" : ", ", kAxisNames[axis],

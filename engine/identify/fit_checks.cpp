@@ -106,6 +106,22 @@ std::vector<std::string> words_on(const std::vector<Record>& records, const FitR
                                 parts[0].second, parts[1].second, result.condition_number, next));
   }
   const std::size_t count = records.size();
+  if (result.settings.runout != Estimated::no) {
+    std::string at_limit;
+    for (std::size_t r = 0; r < count; ++r) {
+      const cutter::Runout& runout = result.records[r].runout;
+      const double component = std::max(std::abs(runout.offset * std::cos(runout.angle)),
+                                        std::abs(runout.offset * std::sin(runout.angle)));
+      if (component < 0.99 * result.settings.runout_limit) continue;
+      at_limit += (at_limit.empty() ? "" : ", ") + records[r].name;
+    }
+    if (!at_limit.empty()) {
+      words.push_back(fmt::format(
+          "{}: the runout is at its limit of {} mm: across the direction in which the teeth differ "
+          "it hardly shows; share it between records (fit.shared), or fix it",
+          at_limit, result.settings.runout_limit));
+    }
+  }
   constexpr double kPoor = 0.95;
   const bool poor =
       std::any_of(result.records.begin(), result.records.end(), [](const RecordFit& r) {

@@ -353,6 +353,7 @@ class Reader {
       }
       read_record(item, defaults, told);
     }
+    number_equal_names();
     if (file_.settings.phase == identify::Estimated::no) {
       for (const FitRecord& record : file_.records) {
         if (!record.phase) {
@@ -361,6 +362,16 @@ class Reader {
         }
         file_.settings.known_phase.push_back(record.phase.value_or(0.0));
       }
+    }
+  }
+
+  /// Records of one file are told apart: slots.mat (1), slots.mat (2).
+  void number_equal_names() {
+    std::map<std::string, int> counts, numbers;
+    for (const FitRecord& record : file_.records) ++counts[record.name];
+    for (FitRecord& record : file_.records) {
+      if (counts[record.name] < 2) continue;
+      record.name += fmt::format(" ({})", ++numbers[record.name]);
     }
   }
 
