@@ -28,14 +28,25 @@ struct RunSettings {
   std::int64_t block_size = 0;
 };
 
+struct FitOptions {
+  std::string file;
+  std::string output;        ///< empty: <fit.name>.h5
+  std::string coefficients;  ///< empty: beside the output, .coefficients.toml
+  int threads = 0;           ///< 0: all
+  bool quiet = false;
+  bool json = false;
+};
+
 struct ExportOptions {
   std::string result;
   std::string output;
+  std::int64_t point = -1;  ///< whose trace is written; -1: the table of all points
 };
 
 // Each verb prints its result to stdout and returns the exit code; bad input is thrown.
 int plan(const StudyOptions& options);
 int run(const StudyOptions& options, const RunSettings& settings);
+int fit(const FitOptions& options);
 int export_result(const ExportOptions& options);
 int print_keys(const std::string& kind, bool markdown);
 

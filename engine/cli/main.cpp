@@ -92,14 +92,31 @@ int main(int argc, char** argv) {
   run->add_flag("--quiet", settings.quiet, "no progress");
   run->add_flag("--json", study.json, "print the summary as JSON");
 
+  cli::FitOptions fitting;
+  CLI::App* fit = app.add_subcommand("fit", "coefficients from measured force traces");
+  fit->add_option("fit", fitting.file, "fit file (TOML)")->required()->type_name("FIT.toml");
+  fit->add_option("-o,--output", fitting.output, "result file (default: <fit.name>.h5 here)")
+      ->type_name("F.h5");
+  fit->add_option("--coefficients", fitting.coefficients,
+                  "coefficients file (default: beside the result, .coefficients.toml)")
+      ->type_name("K.toml");
+  fit->add_option("--threads", fitting.threads, "number of threads (default: all)")
+      ->check(CLI::Range(1, 1024));
+  fit->add_flag("--quiet", fitting.quiet, "no progress");
+  fit->add_flag("--json", fitting.json, "print the result as JSON");
+
   cli::ExportOptions table;
   CLI::App* exporting = app.add_subcommand("export", "write a result as a table");
   exporting->add_option("result", table.result, "result file")->required()->type_name("R.h5");
   exporting->add_option("-o,--output", table.output, "table: .csv or .npy")->required();
 
+  exporting->add_option("--point", table.point, "the trace of this point, counted from 0, as .csv")
+      ->check(CLI::NonNegativeNumber);
+
   std::string kind;
   bool markdown = false;
-  CLI::App* keys = app.add_subcommand("keys", "every key of a study file, by kind");
+  CLI::App* keys =
+      app.add_subcommand("keys", "every key of a study file, by kind, and of a fit file");
   keys->add_option("kind", kind, "one kind only");
   keys->add_flag("--markdown", markdown, "as Markdown tables");
   run->footer("Keys of the study file: millstudy keys");
@@ -107,12 +124,13 @@ int main(int argc, char** argv) {
 
   app.failure_message(usage_fault);
   if (argc < 2) {
-    std::fputs("millstudy: give one of plan, run, export, keys; see millstudy --help\n", stderr);
+    std::fputs("millstudy: give one of plan, run, fit, export, keys; see millstudy --help\n",
+               stderr);
     return cli::kBadInput;
   }
   if (const auto word = unknown_verb(app, argc, argv)) {
     std::fprintf(stderr,
-                 "millstudy: %s is not one of plan, run, export, keys; see millstudy --help\n",
+                 "millstudy: %s is not one of plan, run, fit, export, keys; see millstudy --help\n",
                  word->c_str());
     return cli::kBadInput;
   }
@@ -127,6 +145,7 @@ int main(int argc, char** argv) {
   const int code = guarded([&] {
     if (*plan) return cli::plan(study);
     if (*run) return cli::run(study, settings);
+    if (*fit) return cli::fit(fitting);
     if (*exporting) return cli::export_result(table);
     return cli::print_keys(kind, markdown);
   });

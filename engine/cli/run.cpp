@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/measure.h"
 #include "cli/open_study.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/stop_signal.h"
 #include "cli/version.h"
 #include "core/error.h"
@@ -48,38 +46,24 @@ class FailureTally : public sweep::Sink {
   std::map<std::string, std::int64_t> counts_;
 };
 
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
-}
-
-std::string host_name() {
-  char name[256] = {};
-  return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
-}
-
 /// Where the result came from.
-std::vector<sweep::Attribute> provenance(const OpenStudy& open, const StudyOptions& options,
-                                         int threads) {
-  const Build made = build();
+std::vector<sweep::Attribute> origin(const OpenStudy& open, const StudyOptions& options,
+                                     int threads) {
   std::string overrides;
   for (const std::string& text : options.overrides) overrides += text + '\n';
-  return {
+  std::vector<sweep::Attribute> attributes = {
       {"title", open.study.description.empty() ? open.study.name : open.study.description},
       {"name", open.study.name},
       {"kind", std::string(open.study.kind->name)},
       {"schema_version", std::int64_t{1}},
-      {"millstudy_version", made.version},
-      {"git_revision", made.git_revision},
-      {"git_dirty", std::int64_t{made.git_dirty}},
       {"study", open.text},
       {"overrides", overrides},
       {"study_hash", open.hash},
-      {"isa", made.isa},
-      {"compiler", made.compiler},
-      {"created", utc_now()},
-      {"host", host_name()},
-      {"threads", std::int64_t{threads}},
   };
+  for (sweep::Attribute& attribute : provenance(threads)) {
+    attributes.push_back(std::move(attribute));
+  }
+  return attributes;
 }
 
 struct Outcome {
@@ -187,7 +171,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   }
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   sweep::Layout layout = study::layout(open.study);
-  layout.attributes = provenance(open, options, threads);
+  layout.attributes = origin(open, options, threads);
   const std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
   FailureTally sink(io::make_result_writer(path, layout));
 

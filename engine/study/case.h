@@ -55,6 +55,22 @@ struct Validity {
   std::vector<double> axial_depth;     ///< [mm]
 };
 
+/// How the trace of a point is measured, for records that fits are tried on; lists are x, y, z.
+struct MeasurementSection {
+  std::optional<double> sampling_rate;  ///< [Hz]; without it nothing is measured
+  double duration = 0.0;                ///< [s]
+  double phase = 0.0;                   ///< of flute 0's tip at the first sample [rad]
+  double spindle_speed_error = 0.0;     ///< actual over commanded speed, less 1
+  double noise = 0.0;                   ///< standard deviation [N]
+  double noise_correlation = 0.0;       ///< of neighbouring samples
+  std::vector<double> offset;           ///< [N]; empty: none
+  std::vector<double> drift;            ///< [N/s]; empty: none
+  std::vector<double> mode_frequency;   ///< of the dynamometer [Hz], 0: none; empty: none
+  std::vector<double> mode_damping_ratio;
+  std::vector<double> mode_gain;
+  int seed = 0;
+};
+
 /// One point of a study in native units: what the keys set and the kinds compute from.
 struct Case {
   PathSection path;
@@ -66,6 +82,7 @@ struct Case {
   CutSection cut;
   force::EdgeRule edge_rule;
   int angular_steps = 360;
+  MeasurementSection measurement;
 };
 
 /// The six coefficients that forces are computed with: those given times the scales; for model
@@ -93,6 +110,10 @@ inline constexpr const char* kTooManyDiscs =
     "numerics.discs x numerics.angular_steps (with runout times the square of cutter.flutes) must "
     "be "
     "<= 1e9 with rule discs";
+/// More samples of a record than this are refused.
+inline constexpr double kMostMeasuredSamples = 1e7;
+inline constexpr const char* kTooManyMeasuredSamples =
+    "measurement.sampling_rate_Hz x measurement.duration_s must be <= 1e7 samples";
 /// @throws core::CaseError if feed per tooth exceeds the cutter's radius: no chip is like that, the
 /// spindle speed or the feed rate is mistaken
 void check_feed(const Case& point);

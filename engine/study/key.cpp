@@ -34,7 +34,7 @@ std::string missing(const Key& key) {
 }
 
 const Unit& unit_named(std::string_view name) {
-  static constexpr std::array<Unit, 16> kUnits = {{
+  static constexpr std::array<Unit, 18> kUnits = {{
       {"", "1"},
       {"mm", "mm"},
       {"s", "s"},
@@ -46,6 +46,8 @@ const Unit& unit_named(std::string_view name) {
       {"m/min", "m min-1", 1e3, 60.0},
       {"cm3/min", "cm3 min-1", 1e3, 60.0},
       {"N", "N"},
+      {"N/s", "N s-1"},
+      {"Hz", "Hz"},
       {"N/mm", "N mm-1"},
       {"N/mm2", "N mm-2"},
       {"N/mm3", "N mm-3"},

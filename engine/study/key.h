@@ -15,7 +15,18 @@
 
 namespace millstudy::study {
 
-enum class KeyType { number, integer, numbers, number_or_numbers, choice, flag, text, file };
+enum class KeyType {
+  number,
+  integer,
+  numbers,
+  number_or_numbers,
+  choice,
+  choices,  ///< a list of them
+  flag,
+  text,
+  file,
+  table,  ///< whoever reads it knows what it holds
+};
 
 /// Allowed numbers: from low to high, each end inclusive unless it is open.
 struct Range {
@@ -125,6 +136,7 @@ std::span<const Key> coefficient_keys();  ///< [coefficients]
 std::span<const Key> cut_keys();          ///< [cut]
 std::span<const Key> stock_keys();        ///< [cut], for kinds with a path
 std::span<const Key> numerics_keys();     ///< [numerics]
+std::span<const Key> measurement_keys();  ///< [measurement], for kind force
 
 /// The setting that a value of a file stands for.
 /// @throws core::InputError at the value's place, of a list with every fault: wrong type, not

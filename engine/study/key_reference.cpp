@@ -18,6 +18,10 @@ std::string values(const Key& key) {
   switch (key.type) {
     case KeyType::choice:
       return fmt::format("{}", fmt::join(key.choices, ", "));
+    case KeyType::choices:
+      return fmt::format("list of {}", fmt::join(key.choices, ", "));
+    case KeyType::table:
+      return "table";
     case KeyType::flag:
       return "true, false";
     case KeyType::text:

@@ -89,6 +89,8 @@ void check_cutter(const Given& given, const Case& base, Faults& faults);
 void check_coefficients(const Given& given, const Case& base, Faults& faults);
 /// Rules of [cut].
 void check_cut(const Given& given, const Case& base, Faults& faults);
+/// Rules of [measurement].
+void check_measurement(const Given& given, const Case& base, Faults& faults);
 /// Rules of [numerics].
 void check_numerics(const Given& given, const Case& base, Faults& faults);
 

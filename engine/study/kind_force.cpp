@@ -22,7 +22,12 @@ EvaluatePoint make_evaluator(const Outputs& outputs) {
     force::FigureAccumulator figures(request, *sampler);
     figures.add(*sampler, coefficients, feed, 0, point.angular_steps, samples);
     fill_force_row(point, outputs, figures.result(), material_removal_rate(point), row);
-    if (trace) append_samples(point, 0, point.angular_steps, samples, *trace);
+    if (!trace) return;
+    if (point.measurement.sampling_rate) {
+      fill_measured(point, *trace);
+    } else {
+      append_samples(point, 0, point.angular_steps, samples, *trace);
+    }
   };
 }
 
@@ -31,12 +36,16 @@ EvaluatePoint make_evaluator(const Outputs& outputs) {
 const Kind& force_kind() {
   static const Kind kind = {
       .name = "force",
-      .help = "the cutting force over one revolution, fed along x",
+      .help = "the cutting force over one revolution, fed along x; or records of it, as measured",
       .sections = {general_keys(), cutter_keys(), coefficient_keys(), cut_keys(), numerics_keys(),
-                   output_keys()},
+                   measurement_keys(), output_keys()},
       .columns = force_columns,
       .has_traces = true,
-      .check_keys = check_force_keys,
+      .check_keys =
+          [](const Given& given, const Case& base, Faults& faults) {
+            check_force_keys(given, base, faults);
+            check_measurement(given, base, faults);
+          },
       .check = check_force,
       .make_evaluator = make_evaluator,
   };

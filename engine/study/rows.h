@@ -39,4 +39,7 @@ MeasuredPath measured_path(const Case& point);
 void append_samples(const Case& point, std::int64_t first, std::int64_t count,
                     const force::ForceSamples& samples, sweep::Trace& trace);
 
+/// Fills a trace with the record that [measurement] asks for. @throws core::CaseError
+void fill_measured(const Case& point, sweep::Trace& trace);
+
 }  // namespace millstudy::study

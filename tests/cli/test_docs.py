@@ -61,6 +61,12 @@ class Documentation(ProgramTest):
         self.assertEqual(page[page.index(mark) + len(mark):],
                          self.millstudy("keys", "--markdown").stdout)
 
+    def test_the_reference_of_fit_files_is_the_programs(self):
+        page = (SOURCE / "docs" / "fit_file.md").read_text()
+        mark = "<!-- made by: millstudy keys fit --markdown -->\n\n"
+        self.assertEqual(page[page.index(mark) + len(mark):],
+                         self.millstudy("keys", "fit", "--markdown").stdout)
+
     def test_every_key_is_shown_in_a_ready_made_study(self):
         shown = " ".join(path.read_text() for folder in ("studies", "data")
                          for path in sorted((SOURCE / folder).rglob("*.toml")))

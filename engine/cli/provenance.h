@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "sweep/layout.h"
+
+namespace millstudy::cli {
+
+/// Attributes that say which program made a result, where and when.
+std::vector<sweep::Attribute> provenance(int threads);
+
+}  // namespace millstudy::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <complex>
+#include <span>
+
+#include "dynamics/mode.h"
+
+namespace millstudy::dynamics {
+
+/// One mode of a dynamometer along one axis, and its share in the signal, (D40).
+struct DynamometerMode {
+  Mode mode;
+  double gain = 0.0;  ///< [1]
+};
+
+/// (D40): signal over force at a frequency [rad/s]; 1 at 0 whatever the gains.
+std::complex<double> transfer(std::span<const DynamometerMode> modes, double frequency);
+
+/// Displacement of a mode over its static one, sample by sample, (D41): exact for a force that goes
+/// in straight lines from sample to sample.
+///
+/// Against the analytic response to such a force: 1e-14 (measured over 400 random samples).
+class ModeFilter {
+ public:
+  /// @param sampling_interval  [s], > 0
+  ModeFilter(const Mode& mode, double sampling_interval);
+
+  /// What the mode remembers; at rest under the first force it is given.
+  struct State {
+    bool begun = false;
+    double force = 0.0;
+    double position = 0.0;
+    double velocity = 0.0;
+  };
+  /// @return position after the next sample, in the unit of the force
+  double next(State& state, double force) const;
+
+  /// The same with its derivatives by natural frequency and damping ratio, (D42).
+  struct GradientState {
+    State state;
+    double position_by[2] = {0.0, 0.0};
+    double velocity_by[2] = {0.0, 0.0};
+  };
+  double next(GradientState& gradient, double force) const;
+
+ private:
+  struct Step {
+    double xx, xv, vx, vv;  // free motion over one interval
+  };
+  double interval_;
+  double lag_;  ///< 2 zeta / omega [s]: how far it trails a ramp
+  Step step_;
+  double lag_by_[2];
+  Step step_by_[2];
+};
+
+}  // namespace millstudy::dynamics
