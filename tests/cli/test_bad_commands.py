@@ -20,9 +20,9 @@ class BadCommands(ProgramTest):
         self.assertEqual(self.files(), before)
 
     def test_verbs_and_flags(self):
-        self.check([], "millstudy: give one of plan, run, export, keys; see millstudy --help")
+        self.check([], "millstudy: give one of plan, run, fit, export, keys; see millstudy --help")
         self.check(["mill", "study.toml"],
-                   "millstudy: mill is not one of plan, run, export, keys; see millstudy --help")
+                   "millstudy: mill is not one of plan, run, fit, export, keys; see millstudy --help")
         self.check(["run"], "millstudy run: study is required; see millstudy run --help")
         self.check(["run", "study.toml", "--turbo"], "millstudy run: The following argument was not "
                    "expected: --turbo; see millstudy run --help")
@@ -33,7 +33,7 @@ class BadCommands(ProgramTest):
         self.check(["run", "study.toml", "--block-size", "0"], "millstudy run: --block-size: Value 0 "
                    "not in range 1 to 1000000; see millstudy run --help")
         self.check(["keys", "turning"],
-                   'there is no kind "turning": one of path, force, path_force')
+                   'there is no kind "turning": one of path, force, path_force, fit')
 
     def test_set(self):
         run = ["run", "study.toml", "--set"]

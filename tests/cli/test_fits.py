@@ -2,6 +2,7 @@
 """millstudy fit: coefficients out of traces, their files, and what bad input is told."""
 import json
 import math
+import pathlib
 import re
 import shutil
 import signal
@@ -262,12 +263,26 @@ class Fits(ProgramTest):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          ["200.csv", "400.csv", "600.csv", "fit.toml"])
 
+    @staticmethod
+    def wait_until_caught(run):
+        """Until the program catches SIGINT: it then reads its records."""
+        caught, mask = 0, 1 << (signal.SIGINT - 1)
+        while run.poll() is None and not caught & mask:
+            status = pathlib.Path(f"/proc/{run.pid}/status").read_text()
+            caught = int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16)
+            time.sleep(0.001)
+
+    @staticmethod
+    def wait_for_an_iteration(run):
+        while (line := run.stderr.readline()) and "iteration" not in line:
+            pass
+
     def test_an_interrupted_fit_leaves_nothing_behind(self):
         self.copy_traces()
-        for wait in (0.3, 1.5):  # while records are read, and while it iterates
+        for moment in (self.wait_until_caught, self.wait_for_an_iteration):
             run = subprocess.Popen([PROGRAM, "fit", "traces/fit.toml", "-o", "r.h5"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(wait)
+            moment(run)
             run.send_signal(signal.SIGINT)
             told = run.communicate()[1]
             self.assertEqual(run.returncode, 4, told)
