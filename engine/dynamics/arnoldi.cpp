@@ -113,6 +113,12 @@ DominantEigenvalue dominant_eigenvalue(const LinearMap& map, const ArnoldiSettin
       auto next = basis.col(k + 1);
       map.apply(basis.col(k).data(), next.data());
       ++result.applications;
+      if (!(next.cwiseAbs().maxCoeff() < kLargestGrowth)) {  // overflow included
+        result.value = kLargestGrowth;
+        result.vector = basis.col(k);
+        result.converged = true;
+        return result;
+      }
       const auto so_far = basis.leftCols(k + 1);
       Eigen::VectorXd along = so_far.transpose() * next;
       next.noalias() -= so_far * along;

@@ -14,6 +14,9 @@ struct LinearMap {
   std::function<void(const double* in, double* out)> apply;
 };
 
+/// Stands for every eigenvalue above it.
+inline constexpr double kLargestGrowth = 1e100;
+
 struct ArnoldiSettings {
   double tolerance = 1e-11;  ///< of the residual, relative to the eigenvalue
   int largest_basis = 250;   ///< vectors, before a restart

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -30,12 +31,16 @@ constexpr std::array<Collocation, kLevels> kLadder = {{{5, 5.0},
 
 void set_multiplier(Floquet& result, std::complex<double> value) {
   result.multiplier = value;
+  result.chatter_frequency = std::numeric_limits<double>::quiet_NaN();
   result.spectral_radius = std::abs(value);
   result.kind = bifurcation(value);
 }
 
 /// Frequencies of the harmonics by their amplitude, of which the largest axis counts.
-void set_frequencies(Floquet& result, const Eigen::MatrixXcd& spectrum, double period) {
+template <class Spectrum>
+void set_frequencies(Floquet& result, const Spectrum& spectrum_of_motion, double period) {
+  if (result.spectral_radius >= kLargestGrowth) return;
+  const Eigen::MatrixXcd spectrum = spectrum_of_motion();
   const Eigen::Index count = spectrum.cols(), middle = count / 2;
   const double own = std::arg(result.multiplier) / period;
   std::vector<std::pair<double, double>> all;  // amplitude, frequency
@@ -64,13 +69,15 @@ Eigen::MatrixXcd spectrum_of(const Eigen::MatrixXcd& motion, std::complex<double
   const Eigen::Index count = motion.cols();
   const Eigen::Index harmonics = std::min<Eigen::Index>(kHarmonics, (count - 1) / 2);
   Eigen::MatrixXcd all = Eigen::MatrixXcd::Zero(motion.rows(), 2 * harmonics + 1);
-  for (Eigen::Index k = -harmonics; k <= harmonics; ++k) {
-    const std::complex<double> step =
-        (std::log(multiplier) +
-         std::complex<double>(0.0, 2.0 * core::kPi * static_cast<double>(k))) /
-        static_cast<double>(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      all.col(k + harmonics) += std::exp(-step * static_cast<double>(i)) * motion.col(i);
+  const auto samples = static_cast<double>(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / samples;
+    const std::complex<double> turn = std::polar(1.0, -2.0 * core::kPi * share);
+    std::complex<double> factor =
+        std::exp(-std::log(multiplier) * share) *
+        std::polar(1.0 / samples, 2.0 * core::kPi * static_cast<double>(harmonics) * share);
+    for (Eigen::Index k = 0; k <= 2 * harmonics; ++k, factor *= turn) {
+      all.col(k) += factor * motion.col(i);
     }
   }
   return all;
@@ -82,7 +89,8 @@ Floquet by_intervals(const DelaySystem& system, const FloquetSettings& settings)
   if (!found.converged) throw core::CaseError("the dominant multiplier did not converge");
   Floquet result;
   set_multiplier(result, found.value);
-  set_frequencies(result, spectrum_of(map.motion(found.vector), found.value), system.period);
+  const auto spectrum = [&] { return spectrum_of(map.motion(found.vector), found.value); };
+  set_frequencies(result, spectrum, system.period);
   return result;
 }
 
@@ -121,7 +129,8 @@ Floquet floquet(const DelaySystem& system, const FloquetSettings& settings, int 
     result.error = std::abs(result.spectral_radius - before) / result.spectral_radius;
     if (result.error <= 0.1 * settings.tolerance || result.error < 1e-12) {
       result.level = level - 1;
-      set_frequencies(result, map.spectrum(found.vector, found.value, kHarmonics), system.period);
+      const auto spectrum = [&] { return map.spectrum(found.vector, found.value, kHarmonics); };
+      set_frequencies(result, spectrum, system.period);
       return result;
     }
     before = result.spectral_radius;
@@ -129,9 +138,10 @@ Floquet floquet(const DelaySystem& system, const FloquetSettings& settings, int 
   throw core::CaseError("the spectral radius did not reach the tolerance");
 }
 
-RadiusAtLevel radius_at_level(const DelaySystem& system, int level, const Eigen::VectorXd& guess) {
+RadiusAtLevel radius_at_level(const DelaySystem& system, int level, double residual,
+                              const Eigen::VectorXd& guess) {
   const CollocationMap map(system, kLadder[std::clamp(level, 0, kLevels - 1)]);
-  const DominantEigenvalue found = dominant_at(map, guess, 1e-8);
+  const DominantEigenvalue found = dominant_at(map, guess, residual);
   return {std::abs(found.value), found.vector.real() + found.vector.imag()};
 }
 

@@ -31,9 +31,9 @@ struct FloquetSettings {
 /// What a period of the cut makes of a small disturbance.
 struct Floquet {
   std::complex<double> multiplier;  ///< of largest modulus, imaginary part >= 0
-  double spectral_radius = 0.0;     ///< its modulus [1]: stable below 1
+  double spectral_radius = 0.0;     ///< its modulus [1]: stable below 1; 1e100 and all above
   Bifurcation kind = Bifurcation::hopf;
-  double chatter_frequency = 0.0;   ///< of the strongest harmonic of the motion [rad/s]
+  double chatter_frequency = 0.0;   ///< of the strongest harmonic [rad/s]; NaN at radius 1e100
   std::vector<double> frequencies;  ///< of the harmonics, strongest first, to 10 % of it [rad/s]
   double error = 0.0;               ///< estimated, relative; 0 with given intervals
   int level = 0;                    ///< of the ladder of orders, for a next point to begin at
@@ -47,11 +47,12 @@ struct Floquet {
 Floquet floquet(const DelaySystem& system, const FloquetSettings& settings, int first_level = 0);
 
 /// Spectral radius alone, at one level of the ladder and without estimate of its error.
+/// @param residual  of the eigenvalue, relative
 struct RadiusAtLevel {
   double value = 0.0;
   Eigen::VectorXd vector;  ///< a guess for a neighbouring point
 };
-RadiusAtLevel radius_at_level(const DelaySystem& system, int level,
+RadiusAtLevel radius_at_level(const DelaySystem& system, int level, double residual,
                               const Eigen::VectorXd& guess = {});
 
 /// Levels of the ladder.

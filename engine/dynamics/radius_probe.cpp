@@ -17,7 +17,7 @@ RadiusProbe::Sample RadiusProbe::at_level(double depth, int level) {
     settings.order = search_.order;
     return {depth, std::log(floquet(system, settings).spectral_radius)};
   }
-  RadiusAtLevel found = radius_at_level(system, level, guess_);
+  RadiusAtLevel found = radius_at_level(system, level, 1e-3 * search_.tolerance, guess_);
   guess_ = std::move(found.vector);
   return {depth, std::log(found.value)};
 }

@@ -19,9 +19,8 @@ SimulatedEdge::SimulatedEdge(const force::CuttingEdges& edges, int discs, int tu
                2.0 * core::kPi * ((j + m) / flutes);
       };
       const double own = position(0);
-      Disc disc{own,        node.sin_kappa, node.cos_kappa,
-                node.width, node.length,    edges.factors(j, node),
-                {}};
+      Disc disc{
+          own, node.sin_kappa, node.cos_kappa, node.width, node.length, edges.factors(j, node), {}};
       const int most = all_before ? turns * flutes : 1;
       for (int m = 1; m <= most; ++m) {
         const double other = position(m);

@@ -21,10 +21,10 @@ class SimulatedEdge {
     double ahead;  ///< radius of this tooth less radius of that one [mm]
   };
   struct Disc {
-    double tip;    ///< position of the disc less its lag: angle at spindle angle 0 [rad]
+    double tip;  ///< position of the disc less its lag: angle at spindle angle 0 [rad]
     double sin_kappa, cos_kappa;
-    double width;  ///< db [mm]
-    double length;  ///< dS [mm]
+    double width;                   ///< db [mm]
+    double length;                  ///< dS [mm]
     std::array<double, 6> factors;  ///< of the coefficients
     std::vector<Before> before;     ///< nearest first
   };

@@ -42,7 +42,8 @@ int number_of_discs(const force::CuttingEdges& edges, const TimeDomain& settings
   const double lag = steepest * edges.envelope().lag(edges.axial_depth());
   const bool plain = edges.pieces().size() == 1 && edges.pieces()[0].segment.is_cylinder() &&
                      !edges.variation().with_height();
-  return std::clamp(static_cast<int>(std::ceil(lag / core::rad_from_deg(5.0))), plain ? 1 : 20, 400);
+  return std::clamp(static_cast<int>(std::ceil(lag / core::rad_from_deg(5.0))), plain ? 1 : 20,
+                    400);
 }
 
 class Simulation {

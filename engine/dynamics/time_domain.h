@@ -12,12 +12,12 @@
 namespace millstudy::dynamics {
 
 struct TimeDomain {
-  double feed_per_tooth = 0.05;   ///< [mm], >= 0
-  bool tool_leaves_cut = true;    ///< no negative chips, and every tooth before counts
-  int steps_per_cycle = 60;       ///< of the fastest mode, >= 10
-  int discs = 0;                  ///< of the edge; 0: so many that one lags by 5 deg at most
-  int revolutions = 400;          ///< looked at before a verdict by what there is then, >= 10
-  double decades = 3.0;           ///< of growth or decay for an early verdict
+  double feed_per_tooth = 0.05;  ///< [mm], >= 0
+  bool tool_leaves_cut = true;   ///< no negative chips, and every tooth before counts
+  int steps_per_cycle = 60;      ///< of the fastest mode, >= 10
+  int discs = 0;                 ///< of the edge; 0: so many that one lags by 5 deg at most
+  int revolutions = 400;         ///< looked at before a verdict by what there is then, >= 10
+  double decades = 3.0;          ///< of growth or decay for an early verdict
 };
 
 /// What a simulated cut does.

@@ -57,8 +57,8 @@ void check(const MeasuredResponse& measured) {
   for (std::size_t i = 0; i < measured.omega.size(); ++i) {
     const double hertz = measured.omega[i] / (2.0 * core::kPi);
     if (!(std::isfinite(hertz) && hertz >= 0.0 && measured.response[i].allFinite())) {
-      throw core::InputError(
-          fmt::format("the frequency response at {} Hz must be finite, at a frequency >= 0", hertz));
+      throw core::InputError(fmt::format(
+          "the frequency response at {} Hz must be finite, at a frequency >= 0", hertz));
     }
     if (i == 0) continue;
     if (!(measured.omega[i] > measured.omega[i - 1])) {
@@ -109,8 +109,8 @@ FrequencyDomain frequency_domain(const MeasuredResponse& measured) {
   return {[measured](double omega) { return measured.at(omega); }, measured.omega};
 }
 
-ZerothOrder zeroth_order_gain(const FrequencyDomain& machine,
-                              const Eigen::Matrix2d& mean_stiffness, double delay) {
+ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matrix2d& mean_stiffness,
+                              double delay) {
   if (!(delay > 0.0 && std::isfinite(delay))) {
     throw core::InputError(fmt::format("delay = {} s must be > 0 and finite", delay));
   }

@@ -45,8 +45,8 @@ struct ZerothOrder {
 /// equal teeth; there its limits and those of collocation differ by less than 1e-6 (measured).
 /// @param mean_stiffness  [N/mm] at some depth; rows and columns x, y
 /// @param delay           [s], > 0
-ZerothOrder zeroth_order_gain(const FrequencyDomain& machine,
-                              const Eigen::Matrix2d& mean_stiffness, double delay);
+ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matrix2d& mean_stiffness,
+                              double delay);
 
 struct ZerothOrderLimit {
   double axial_depth_limit = 0.0;  ///< [mm]; largest_depth where it is stable up to there

@@ -1,19 +1,169 @@
-// scratch
+// SPDX-License-Identifier: MIT
+// Stability: products by structure against dense ones, boundaries against filled charts.
+//
+//   bench_stability [--speeds=N] [--benchmark_filter=...]
+//
+// The radius of the slot of Insperger and Stepan by semi-discretization of order 0, against the
+// textbook product of dense matrices and its eigenvalues (Eigen), which must agree to 1e-9. Then
+// the limit of depth over N speeds (400), against the chart of N x 200 points, both to 0.1 %.
+// Ratios are of medians, on one thread. Run it on an idle machine.
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <benchmark/benchmark.h>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
+
+#include "benchmark/median_reporter.h"
+#include "dynamics/depth_limit.h"
 #include "dynamics/floquet.h"
-#include "dynamics/collocation.h"
-#include "dynamics/semi_discretization.h"
 #include "unit/dynamics/insperger.h"
+
+namespace {
+
+using namespace millstudy;
 using namespace millstudy::dynamics;
-static void sys(benchmark::State& s){ for(auto _:s){ benchmark::DoNotOptimize(testing::insperger_slot(5000,1.0)); } }
-static void avg(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); for(auto _:s){ benchmark::DoNotOptimize(d.averages(int(s.range(0)))); } }
-static void build(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); for(auto _:s){ SemiDiscretizedMap m(d,{int(s.range(0)),0}); benchmark::DoNotOptimize(m); } }
-static void apply(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); SemiDiscretizedMap m(d,{int(s.range(0)),0}); Eigen::VectorXd a=Eigen::VectorXd::Ones(m.size()),b=a; for(auto _:s){ m.apply(a.data(),b.data()); benchmark::DoNotOptimize(b.data()); } }
-static void eig(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); SemiDiscretizedMap m(d,{int(s.range(0)),0}); DominantEigenvalue e; for(auto _:s){ e=dominant_eigenvalue(m.map()); } s.counters["apps"]=e.applications; }
-static void cbuild(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); for(auto _:s){ CollocationMap m(d,{int(s.range(0)),4.0}); benchmark::DoNotOptimize(m); } }
-static void capply(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); CollocationMap m(d,{int(s.range(0)),4.0}); Eigen::VectorXd a=Eigen::VectorXd::Ones(m.size()),b=a; for(auto _:s){ m.apply(a.data(),b.data()); benchmark::DoNotOptimize(b.data()); } s.counters["size"]=m.size(); }
-static void ceig(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0); CollocationMap m(d,{int(s.range(0)),4.0}); DominantEigenvalue e; for(auto _:s){ e=dominant_eigenvalue(m.map()); } s.counters["apps"]=e.applications; }
-static void full(benchmark::State& s){ auto d=testing::insperger_slot(5000,1.0);  Floquet e; for(auto _:s){ e=floquet(d,{1e-3}); } s.counters["level"]=e.level; }
-BENCHMARK(sys); BENCHMARK(avg)->Arg(40)->Arg(200); BENCHMARK(build)->Arg(40)->Arg(200); BENCHMARK(apply)->Arg(40)->Arg(200); BENCHMARK(eig)->Arg(40)->Arg(200);
-BENCHMARK(cbuild)->Arg(6)->Arg(8); BENCHMARK(capply)->Arg(6)->Arg(8); BENCHMARK(ceig)->Arg(6)->Arg(8); BENCHMARK(full);
-BENCHMARK_MAIN();
+
+constexpr double kRpm = 5000.0, kDepth = 3.0;
+constexpr int kDepths = 200;
+constexpr double kDeepest = 10.0;
+
+/// The spectral radius as T. Insperger, G. Stepan (2004) print it: one dense matrix for each of p
+/// intervals, of the state and p + 1 stored positions.
+double dense_radius(int p) {
+  const DelaySystem system = testing::insperger_slot(kRpm, kDepth);
+  const AveragedGains gains = system.averages(p);
+  const AxisMode mode = testing::insperger_machine().x[0];
+  const double w = mode.mode.natural_frequency, h = system.period / p;
+  const int size = p + 2;
+  Eigen::MatrixXd product = Eigen::MatrixXd::Identity(size, size);
+  for (int i = 0; i < p; ++i) {
+    Eigen::Matrix2d a;
+    a << 0.0, 1.0, -w * w - gains.direct[i](0, 0) / mode.mass, -2.0 * mode.mode.damping_ratio * w;
+    const Eigen::Matrix2d exponential = (a * h).exp();
+    const Eigen::Vector2d force(0.0, gains.delayed[i](0, 0) / mode.mass);
+    const Eigen::Vector2d drive =
+        a.inverse() * ((exponential - Eigen::Matrix2d::Identity()) * force);
+    Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size, size);
+    step.topLeftCorner<2, 2>() = exponential;
+    step.block<2, 1>(0, size - 1) += 0.5 * drive;
+    step.block<2, 1>(0, size - 2) += 0.5 * drive;
+    step(2, 0) = 1.0;
+    for (int k = 3; k < size; ++k) step(k, k - 1) = 1.0;
+    product = step * product;
+  }
+  return product.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double radius(int intervals) {
+  return floquet(testing::insperger_slot(kRpm, kDepth), {1e-3, intervals, 0}).spectral_radius;
+}
+
+Machine two_in_each() {
+  const double turn = 2.0 * core::kPi;
+  Machine machine;
+  machine.x = {{{452.8 * turn, 0.12}, 0.0, 1.0e4}, {{1448.5 * turn, 0.0170}, 0.0, 8.0e4}};
+  machine.y = {{{516.3 * turn, 0.024}, 0.0, 9.7e3}, {{1407.0 * turn, 0.032}, 0.0, 4.0e4}};
+  return machine;
+}
+
+struct Lobes {
+  const char* name;
+  Machine machine;
+};
+
+DelaySystem at(const Lobes& lobes, double rpm, double depth) {
+  return delay_system(lobes.machine,
+                      {testing::insperger_cutter(), force::slot(depth), testing::kInsperger},
+                      testing::spindle(rpm));
+}
+
+double rpm_of(int i, int speeds) {
+  return 5000.0 + 20000.0 * i / speeds;
+}
+
+void chart(benchmark::State& state, const Lobes& lobes, int speeds) {
+  for (auto _ : state) {
+    for (int i = 0; i < speeds; ++i) {
+      for (int k = 1; k <= kDepths; ++k) {
+        const DelaySystem system = at(lobes, rpm_of(i, speeds), kDeepest * k / kDepths);
+        benchmark::DoNotOptimize(floquet(system, {1e-3}).spectral_radius);
+      }
+    }
+  }
+}
+
+void boundary(benchmark::State& state, const Lobes& lobes, int speeds) {
+  DepthSearch search;
+  search.largest_depth = kDeepest;
+  for (auto _ : state) {
+    for (int i = 0; i < speeds; ++i) {
+      const double rpm = rpm_of(i, speeds);
+      benchmark::DoNotOptimize(
+          depth_limits([&](double depth) { return at(lobes, rpm, depth); }, search));
+    }
+  }
+}
+
+/// The first argument that is not for the library, taken out.
+int speeds_asked(int& count, char** arguments) {
+  int speeds = 400, kept = 1;
+  for (int i = 1; i < count; ++i) {
+    if (std::strncmp(arguments[i], "--speeds=", 9) == 0)
+      speeds = std::max(1, std::atoi(arguments[i] + 9));
+    else
+      arguments[kept++] = arguments[i];
+  }
+  count = kept;
+  return speeds;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int speeds = speeds_asked(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  const std::vector<Lobes> all = {{"insperger_lobes", testing::insperger_machine()},
+                                  {"two_modes_in_x_and_y", two_in_each()}};
+  const std::vector<int> dense = {40, 200}, structured = {40, 200, 1000, 10000};
+  bool agree = true;
+  for (const int p : dense) {
+    const double found = radius(p), expected = dense_radius(p);
+    agree = agree && std::abs(found - expected) <= 1e-9 * expected;
+    std::printf("%d intervals: %.12f, dense %.12f\n", p, found, expected);
+    const auto run = [p](benchmark::State& state) {
+      for (auto _ : state) benchmark::DoNotOptimize(dense_radius(p));
+    };
+    baseline::add("dense/" + std::to_string(p), run, 3);
+  }
+  for (const int p : structured) {
+    const auto run = [p](benchmark::State& state) {
+      for (auto _ : state) benchmark::DoNotOptimize(radius(p));
+    };
+    baseline::add("structured/" + std::to_string(p), run, 3);
+  }
+  for (const Lobes& lobes : all) {
+    const std::string name = lobes.name;
+    baseline::add(
+        "boundary/" + name, [&](auto& state) { boundary(state, lobes, speeds); }, 2);
+    baseline::add(
+        "chart/" + name, [&](auto& state) { chart(state, lobes, speeds); }, 2);
+  }
+  baseline::MedianReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  const auto ratio = [&](const std::string& slow, const std::string& fast, const char* words) {
+    const auto *a = reporter.find(slow), *b = reporter.find(fast);
+    if (a && b) std::printf("%-60s %8.1f x\n", words, a->ns / b->ns);
+  };
+  ratio("dense/40", "structured/40", "radius, 40 intervals, than dense products (20)");
+  ratio("dense/200", "structured/200", "radius, 200 intervals, than dense products (2000)");
+  ratio("structured/10000", "structured/1000", "10 000 intervals cost, of 1000");
+  ratio("chart/insperger_lobes", "boundary/insperger_lobes", "boundary than chart, one mode (20)");
+  ratio("chart/two_modes_in_x_and_y", "boundary/two_modes_in_x_and_y",
+        "boundary than chart, four modes (20)");
+  return agree ? 0 : 1;
+}

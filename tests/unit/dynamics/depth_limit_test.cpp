@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
+#include "dynamics/arnoldi.h"
+#include "dynamics/floquet.h"
 #include "unit/dynamics/insperger.h"
+#include "unit/dynamics/random_cut.h"
 
 namespace millstudy::dynamics {
 namespace {
@@ -55,6 +58,19 @@ TEST(DepthLimit, DoesNotMoveWhenTheToleranceIsHalved) {
     EXPECT_NEAR(found, half, 1e-3 * half);
     EXPECT_NEAR(found, fine, 5e-4 * fine);
   }
+}
+
+// Deep in this cut a disturbance grows beyond all numbers within a turn.
+TEST(DepthLimit, IsFoundBelowDepthsAtWhichNumbersOverflow) {
+  std::mt19937_64 random(1416);
+  const testing::RandomCut cut = testing::random_cut(random);
+  EXPECT_EQ(floquet(cut.at(cut.largest_depth), {}).spectral_radius, kLargestGrowth);
+  DepthSearch search;
+  search.largest_depth = cut.largest_depth;
+  const double limit =
+      depth_limits([&](double depth) { return cut.at(depth); }, search).axial_depth_limit;
+  EXPECT_LT(floquet(cut.at(0.99 * limit), {}).spectral_radius, 1.0);
+  EXPECT_GT(floquet(cut.at(1.01 * limit), {}).spectral_radius, 1.0);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ RandomCut random_cut(std::mt19937_64& random) {
   cutter.diameter = uniform(random, 6.0, 25.0);
   cutter.flutes = 1 + static_cast<int>(random() % 6);
   const double hand = random() % 4 == 0 ? -1.0 : 1.0;
-  cutter.helix_angle = random() % 3 == 0 ? 0.0 : hand * core::rad_from_deg(uniform(random, 5.0, 50.0));
+  cutter.helix_angle =
+      random() % 3 == 0 ? 0.0 : hand * core::rad_from_deg(uniform(random, 5.0, 50.0));
   switch (random() % 8) {
     case 0:
       cutter.shape = cutter::Shape::ball;
@@ -80,8 +81,12 @@ RandomCut random_cut(std::mt19937_64& random) {
       cut.arc.entry_angle = uniform(random, 0.0, 1.5);
       cut.arc.exit_angle = uniform(random, cut.arc.entry_angle + 0.3, core::kPi);
   }
-  cut.coefficients = {uniform(random, 400.0, 2500.0), uniform(random, 100.0, 1200.0),
-                      uniform(random, 0.0, 800.0), 0.0, 0.0, 0.0};
+  cut.coefficients = {uniform(random, 400.0, 2500.0),
+                      uniform(random, 100.0, 1200.0),
+                      uniform(random, 0.0, 800.0),
+                      0.0,
+                      0.0,
+                      0.0};
   const double cycles = std::exp(uniform(random, std::log(0.5), std::log(12.0)));
   cut.spindle_speed = cut.machine.x[0].mode.natural_frequency / cycles / cutter.flutes;
   return cut;

@@ -44,8 +44,10 @@ TEST(TimeDomain, GivesTheVerdictOfTheMultipliersForRandomCutters) {
     const RandomCut cut = testing::random_cut(random);
     DepthSearch search;
     search.largest_depth = cut.largest_depth;
-    const double limit = depth_limits([&](double depth) { return cut.at(depth); }, search).axial_depth_limit;
-    const double share = std::exp(std::log(2.0) * (2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0));
+    const double limit =
+        depth_limits([&](double depth) { return cut.at(depth); }, search).axial_depth_limit;
+    const double share =
+        std::exp(std::log(2.0) * (2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0));
     const double depth = std::min(limit * share, cut.largest_depth);
     TimeDomain settings;
     settings.feed_per_tooth = 0.0;
@@ -54,7 +56,6 @@ TEST(TimeDomain, GivesTheVerdictOfTheMultipliersForRandomCutters) {
     const Simulated found = simulated(cut, depth, settings);
     stable += found.stable;
     worst = std::max(worst, std::abs(found.growth_per_turn - expected));
-    std::cout << i << " depth " << depth << " limit " << limit << ": " << expected << " simulated " << found.growth_per_turn << " in " << found.revolutions << "  " << cut << "\n";
     if (found.stable == (expected < 0.0)) {
       ++agree;
       continue;
@@ -64,8 +65,9 @@ TEST(TimeDomain, GivesTheVerdictOfTheMultipliersForRandomCutters) {
     EXPECT_TRUE(at_boundary) << "seed " << 1000 + i << " depth " << depth << " growth " << expected
                              << " simulated " << found.growth_per_turn << ": " << cut;
   }
-  std::cout << agree << " of " << count << " agree, " << near << " differ within 2 % of the boundary, "
-            << stable << " stable; growth per turn off by " << worst << "\n";
+  std::cout << agree << " of " << count << " agree, " << near
+            << " differ within 2 % of the boundary, " << stable
+            << " stable; growth per turn off by " << worst << "\n";
 }
 
 }  // namespace
