@@ -237,6 +237,7 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
   Simulated result;
   std::vector<Eigen::Vector2d> last(kSamples, Eigen::Vector2d::Zero()), now(kSamples);
   std::vector<double> logs;
+  bool dead = false;
   const int every = simulation.steps() / kSamples;
   for (int turn = 0; turn < settings.revolutions; ++turn) {
     double square = 0.0;
@@ -251,7 +252,8 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
     if (turn < 1) continue;
     const double distance = std::sqrt(square / kSamples);
     const double floor = 1e-14 * (largest + 1e-290);
-    if (!(distance > floor) || !std::isfinite(distance)) break;
+    dead = distance <= floor;
+    if (dead || !std::isfinite(distance)) break;
     logs.push_back(std::log(distance));
     if (settings.tool_leaves_cut && distance > 0.3 * scale) {
       result.saturated = true;
@@ -262,6 +264,9 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
     const double seen = result.growth_per_turn * static_cast<double>(logs.size() - first);
     if (logs.size() >= 12 && std::abs(seen) > settings.decades * std::log(10.0)) break;
   }
+  // A bounded vibration that does not die: the tool keeps leaving the cut.
+  const double seen = result.growth_per_turn * static_cast<double>(logs.size());
+  if (settings.tool_leaves_cut && !dead && seen > -std::log(2.0)) result.saturated = true;
   result.stable = !result.saturated && result.growth_per_turn < 0.0;
   return result;
 }

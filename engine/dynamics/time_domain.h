@@ -23,7 +23,7 @@ struct TimeDomain {
 /// What a simulated cut does.
 struct Simulated {
   bool stable = false;
-  bool saturated = false;        ///< it grew until the tool left the cut
+  bool saturated = false;        ///< it grew until the tool left the cut, or does not die
   double growth_per_turn = 0.0;  ///< of the disturbance, its logarithm
   int revolutions = 0;
   /// Positions x, y [mm] once a revolution, as the tip of flute 0 passes 0; shape (revolutions).

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "core/error.h"
@@ -42,11 +43,13 @@ force::Variation variation(const Case& point) {
 
 double feed_rate(const Case& point) {
   if (point.cut.feed_rate) return *point.cut.feed_rate;
+  if (!point.cut.feed_per_tooth) return std::numeric_limits<double>::quiet_NaN();
   return *point.cut.feed_per_tooth * point.cut.spindle_speed * point.cutter.flutes;
 }
 
 double feed_per_tooth(const Case& point) {
   if (point.cut.feed_per_tooth) return *point.cut.feed_per_tooth;
+  if (!point.cut.feed_rate) return std::numeric_limits<double>::quiet_NaN();
   return *point.cut.feed_rate / (point.cut.spindle_speed * point.cutter.flutes);
 }
 
@@ -81,7 +84,7 @@ force::Engagement engagement(const Case& point) {
 }
 
 void check_feed(const Case& point) {
-  if (feed_per_tooth(point) <= cutter::radius(point.cutter)) return;
+  if (!(feed_per_tooth(point) > cutter::radius(point.cutter))) return;
   throw core::CaseError(
       "feed per tooth must be <= the cutter's radius: check feed rate, spindle speed and flutes");
 }
@@ -109,6 +112,29 @@ double material_removal_rate(const Case& point) {
   // Width swept at height z is r(z) (cos entry - cos exit) = 2 r(z) immersion.
   return feed_rate(point) * 2.0 * radial_immersion(point) *
          cutter::section_area(cutter::Envelope(point.cutter), point.cut.axial_depth);
+}
+
+dynamics::Machine machine(const Case& point) {
+  constexpr double kTurn = 2.0 * core::kPi;
+  dynamics::Machine machine;
+  const auto mode_of = [](const auto& given) {
+    return dynamics::Mode{kTurn * given.frequency.value_or(0.0), given.damping_ratio.value_or(0.0)};
+  };
+  const auto add = [&](const auto& given, std::vector<dynamics::AxisMode>& axis) {
+    for (const AxisModeSection& mode : given) {
+      if (!mode.frequency) continue;
+      axis.push_back({mode_of(mode), mode.mass.value_or(0.0), mode.stiffness.value_or(0.0)});
+    }
+  };
+  add(point.modes.x, machine.x);
+  add(point.modes.y, machine.y);
+  for (const CoupledModeSection& mode : point.modes.coupled) {
+    if (!mode.frequency || mode.residue.size() != 4) continue;
+    Eigen::Matrix2d residue;
+    residue << mode.residue[0], mode.residue[1], mode.residue[2], mode.residue[3];
+    machine.coupled.push_back({mode_of(mode), residue});
+  }
+  return machine;
 }
 
 }  // namespace millstudy::study

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cutter/cutter.h"
+#include "dynamics/machine.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
 #include "force/variation.h"
@@ -71,6 +72,40 @@ struct MeasurementSection {
   int seed = 0;
 };
 
+/// A mode that moves along one axis; without a frequency there is none.
+struct AxisModeSection {
+  std::optional<double> frequency;  ///< natural [Hz]
+  std::optional<double> damping_ratio;
+  std::optional<double> mass;       ///< [N s2/mm]; this or the next
+  std::optional<double> stiffness;  ///< [N/mm]
+};
+
+/// A mode that couples the axes.
+struct CoupledModeSection {
+  std::optional<double> frequency;  ///< natural [Hz]
+  std::optional<double> damping_ratio;
+  std::vector<double> residue;  ///< xx, xy, yx, yy [mm/(N s2)]
+};
+
+struct ModesSection {
+  static constexpr std::size_t kMost = 8;  ///< along an axis
+  static constexpr std::size_t kMostCoupled = 4;
+  std::array<AxisModeSection, kMost> x;
+  std::array<AxisModeSection, kMost> y;
+  std::array<CoupledModeSection, kMostCoupled> coupled;
+};
+
+enum class StabilityMethod { semi_discretization, zeroth_order, time_domain };
+
+struct StabilitySection {
+  StabilityMethod method = StabilityMethod::semi_discretization;
+  double tolerance = 1e-3;
+  int intervals = 0;                    ///< 0: by tolerance
+  int order = 0;                        ///< with intervals
+  std::optional<double> largest_depth;  ///< to which limits are sought [mm]
+  int revolutions = 400;                ///< of the time domain
+};
+
 /// One point of a study in native units: what the keys set and the kinds compute from.
 struct Case {
   PathSection path;
@@ -83,6 +118,8 @@ struct Case {
   force::EdgeRule edge_rule;
   int angular_steps = 360;
   MeasurementSection measurement;
+  ModesSection modes;
+  StabilitySection stability;
 };
 
 /// The six coefficients that forces are computed with: those given times the scales; for model
@@ -90,9 +127,11 @@ struct Case {
 force::Coefficients scaled_coefficients(const Case& point);
 /// How these vary along the edge and with the chip.
 force::Variation variation(const Case& point);
-/// Feed rate [mm/s], from feed per tooth where that is given.
+/// The modes of tool and workpiece.
+dynamics::Machine machine(const Case& point);
+/// Feed rate [mm/s], from feed per tooth where that is given; NaN where neither is.
 double feed_rate(const Case& point);
-/// Feed per tooth [mm], from feed rate where that is given.
+/// Feed per tooth [mm], from feed rate where that is given; NaN where neither is.
 double feed_per_tooth(const Case& point);
 /// Entry, exit and depth. @throws core::CaseError if the depths do not fit the cutter, or exit is
 /// not after entry.

@@ -19,6 +19,8 @@ void check_feed_keys(const Given& given, Faults& faults) {
   }
 }
 
+}  // namespace
+
 void check_engagement_keys(const Given& given, const Case& base, Faults& faults) {
   const bool entry = given.has("cut.entry_deg");
   const bool exit = given.has("cut.exit_deg");
@@ -50,8 +52,6 @@ void check_engagement_keys(const Given& given, const Case& base, Faults& faults)
                "cut.radial_depth_mm contradicts cut.entry_deg and cut.exit_deg: leave it out");
   }
 }
-
-}  // namespace
 
 void check_cut_keys(const Given& given, const Case& base, Faults& faults) {
   check_feed_keys(given, faults);

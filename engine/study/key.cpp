@@ -34,7 +34,7 @@ std::string missing(const Key& key) {
 }
 
 const Unit& unit_named(std::string_view name) {
-  static constexpr std::array<Unit, 18> kUnits = {{
+  static constexpr std::array<Unit, 22> kUnits = {{
       {"", "1"},
       {"mm", "mm"},
       {"s", "s"},
@@ -53,6 +53,10 @@ const Unit& unit_named(std::string_view name) {
       {"N/mm3", "N mm-3"},
       {"N/mm2/deg", "N mm-2 degree-1", 180.0, core::kPi},
       {"N m", "N m", 1e3, 1.0},
+      {"N/m", "N m-1", 1.0, 1e3},
+      {"kg", "kg", 1.0, 1e3},
+      {"1/kg", "kg-1", 1e3, 1.0},
+      {"um", "um", 1.0, 1e3},
   }};
   const auto* const found = std::find_if(kUnits.begin(), kUnits.end(),
                                          [&](const Unit& unit) { return unit.name == name; });

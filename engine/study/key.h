@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -78,10 +79,11 @@ struct PartsOfTurn {
 
 /// The place in a case that a key sets. A choice sets an enumeration whose values are declared in
 /// the order of the key's choices.
-using Field = std::variant<double*, std::optional<double>*, int*, std::vector<double>*,
-                           NumberOrNumbers, PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*,
-                           cutter::Shape*, cutter::Lead*, cutter::EdgeMeasure*, force::Rule*,
-                           std::optional<Milling>*, process::Stock*, CoefficientModel*>;
+using Field =
+    std::variant<double*, std::optional<double>*, int*, std::vector<double>*, NumberOrNumbers,
+                 PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*, cutter::Shape*, cutter::Lead*,
+                 cutter::EdgeMeasure*, force::Rule*, std::optional<Milling>*, process::Stock*,
+                 CoefficientModel*, StabilityMethod*>;
 
 /// One key of a study: the only place that says what it is called, what it may be and what it
 /// sets. Validation, the key reference, sweep axes and the case of a point all come from here.
@@ -92,10 +94,11 @@ struct Key {
   Range range;
   Default fallback = Required{};
   std::string_view help;  ///< one line: its name, then what else there is to say after : or ;
-  Field (*field)(Case&) = nullptr;
+  std::function<Field(Case&)> field = nullptr;
   std::vector<std::string_view> choices = {};  ///< of a choice
   OnlyFor only_for = {};
   Count count = {};  ///< of a list
+  int item = 0;      ///< of a list of tables: which of them the key is of
 
   /// Last part of the path: axial_depth_mm.
   std::string_view name() const { return path.substr(path.rfind('.') + 1); }
@@ -137,6 +140,8 @@ std::span<const Key> cut_keys();          ///< [cut]
 std::span<const Key> stock_keys();        ///< [cut], for kinds with a path
 std::span<const Key> numerics_keys();     ///< [numerics]
 std::span<const Key> measurement_keys();  ///< [measurement], for kind force
+std::span<const Key> modes_keys();        ///< [[modes.x]], [[modes.y]], [[modes.coupled]]
+std::span<const Key> stability_keys();    ///< [stability]
 
 /// The setting that a value of a file stands for.
 /// @throws core::InputError at the value's place, of a list with every fault: wrong type, not

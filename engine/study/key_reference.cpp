@@ -77,6 +77,7 @@ std::string key_reference(const Kind& kind, bool markdown) {
   }
   for (const std::span<const Key> section : kind.sections) {
     for (const Key& key : section) {
+      if (key.item > 0) continue;  // as the first
       if (markdown) {
         text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.unit, values(key),
                             fallback(key), meaning(key));

@@ -42,6 +42,7 @@ struct Outputs {
   int harmonics = 0;            ///< of forces and torque, from the first
   int flutes = 0;               ///< that have columns of their own: the most of any point, or 0
   bool bending_moment = false;  ///< the stick-out is given
+  bool depth_is_axis = false;   ///< every point has a depth of its own
 };
 
 /// Computes one point: fills one value per column, and the trace where one is asked for.
@@ -89,6 +90,10 @@ void check_cutter(const Given& given, const Case& base, Faults& faults);
 void check_coefficients(const Given& given, const Case& base, Faults& faults);
 /// Rules of [cut].
 void check_cut(const Given& given, const Case& base, Faults& faults);
+/// Which keys of [cut] go together but for the feed, which stability need not know.
+void check_engagement_keys(const Given& given, const Case& base, Faults& faults);
+/// Rules of [[modes.x]], [[modes.y]] and [[modes.coupled]].
+void check_modes_keys(const Given& given, Faults& faults);
 /// Rules of [measurement].
 void check_measurement(const Given& given, const Case& base, Faults& faults);
 /// Rules of [numerics].

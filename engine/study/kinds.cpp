@@ -6,10 +6,11 @@
 namespace millstudy::study {
 
 std::span<const Kind* const> kinds() {
-  static const std::array<const Kind*, 3> all = {
+  static const std::array<const Kind*, 4> all = {
       &path_kind(),
       &force_kind(),
       &path_force_kind(),
+      &stability_kind(),
   };
   return all;
 }

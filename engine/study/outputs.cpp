@@ -49,6 +49,7 @@ Outputs asked_outputs(const Study& study, const SettingMap& settings, const Give
     outputs.harmonics = static_cast<int>(std::get<double>(harmonics->second));
   }
   if (flag("output.per_flute", settings)) outputs.flutes = most_flutes(study, settings, given);
+  outputs.depth_is_axis = given.swept("cut.axial_depth_mm");
   outputs.bending_moment = given.has("cutter.stick_out_mm");
   return outputs;
 }

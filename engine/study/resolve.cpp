@@ -38,6 +38,8 @@ class Resolver {
     find_kind();
     lift_file_key("cutter_file", "cutter");
     lift_file_key("coefficients_file", "coefficients");
+    lift_file_key("modes_file", "modes");
+    faults_.collect([&] { number_lists(tree_, "", *study_.kind); });
     read_table(tree_, "");
     const FileSettings read_file = [this](const Key& key, const core::Value& path) {
       return settings_of_file(key, path, *study_.kind, load_);
@@ -247,8 +249,13 @@ class Resolver {
 
   /// True if the study gives the key in its own section: then no file decides it.
   bool is_own(const Key& key) const {
-    const core::Value* section = tree_.find(key.path.substr(0, key.path.find('.')));
-    return section && section->find(key.name());
+    const core::Value* at = &tree_;
+    for (std::string_view rest = key.path; at && !rest.empty();) {
+      const std::size_t dot = rest.find('.');
+      at = at->find(rest.substr(0, dot));
+      rest = dot == std::string_view::npos ? std::string_view() : rest.substr(dot + 1);
+    }
+    return at != nullptr;
   }
 
   /// A limit on a key that no point has would skip them all.

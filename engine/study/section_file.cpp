@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 
 #include "study/curve_file.h"
 #include "study/file_text.h"
@@ -53,6 +54,30 @@ Setting read_object(const Key& key, const core::Value& content) {
   return read_curve(content);
 }
 
+/// What is at fault is told once: the rest of the study then sees a list as if it were right.
+void number_list(core::Value& list, const std::string& path, const Kind& kind) {
+  const core::InputError no_list(list.place,
+                                 fmt::format("{0} must be a list of tables: [[{0}]]", path));
+  if (!list.is_array()) {
+    if (list.is_table()) list.data = core::Value::Table{{"0", list}};
+    throw no_list;
+  }
+  core::Value::Table numbered;
+  Faults faults;
+  for (const core::Value& item : list.array()) {
+    const std::string name = std::to_string(numbered.size());
+    if (!item.is_table()) {
+      faults.add(item.place, no_list.faults().front().text);
+    } else if (!kind.has_section(fmt::format("{}.{}", path, name))) {
+      faults.add(item.place, fmt::format("{} has more than {} entries", path, name));
+    } else {
+      numbered.push_back({name, item});
+    }
+  }
+  list.data = std::move(numbered);
+  faults.throw_if_any();
+}
+
 /// A file that a file names: relative to the folder of that one.
 core::Value beside(const std::string& file, const core::Value& name) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
@@ -61,30 +86,53 @@ core::Value beside(const std::string& file, const core::Value& name) {
 
 }  // namespace
 
+void number_lists(core::Value& table, const std::string& prefix, const Kind& kind) {
+  if (!table.is_table()) return;
+  Faults faults;
+  for (core::Member& member : table.table()) {
+    const std::string path = prefix.empty() ? member.key : fmt::format("{}.{}", prefix, member.key);
+    if (kind.has_section(fmt::format("{}.0", path))) {
+      faults.collect([&] { number_list(member.value, path, kind); });
+    } else if (kind.has_section(path)) {
+      faults.collect([&] { number_lists(member.value, path, kind); });
+    }
+  }
+  faults.throw_if_any();
+}
+
 std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value, const Kind& kind,
                                          const FileLoader& load) {
   const auto path = std::get<std::string>(checked_setting(key, value));
-  const core::Value content = load_named(key, path, value.place, load);
+  core::Value content = load_named(key, path, value.place, load);
   if (key.field) return {{&key, read_object(key, content)}};
   const std::string section(key.path.substr(0, key.path.find('.')));
+  number_lists(content, section, kind);
   std::vector<Assignment> assignments;
   Faults faults;
-  for (const auto& [name, member] : content.table()) {
-    const Key* inner = kind.find_key(section + '.' + name);
-    if (inner && inner->field) {
-      faults.collect([&] {
-        Setting setting = checked_setting(*inner, member);
-        if (inner->type == KeyType::file) {
-          assignments.push_back(settings_of_file(*inner, beside(path, member), kind, load).front());
-        } else {
-          assignments.push_back({inner, std::move(setting)});
+  const std::function<void(const core::Value&, const std::string&)> read =
+      [&](const core::Value& table, const std::string& prefix) {
+        for (const auto& [name, member] : table.table()) {
+          const std::string full = fmt::format("{}.{}", prefix, name);
+          const Key* inner = kind.find_key(full);
+          if (inner && inner->field) {
+            faults.collect([&] {
+              Setting setting = checked_setting(*inner, member);
+              if (inner->type == KeyType::file) {
+                assignments.push_back(
+                    settings_of_file(*inner, beside(path, member), kind, load).front());
+              } else {
+                assignments.push_back({inner, std::move(setting)});
+              }
+            });
+          } else if (member.is_table() && kind.has_section(full)) {
+            read(member, full);
+          } else if (prefix != section || (!is_file_text(name) && !is_origin(section, name))) {
+            faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
+                                                 suggestion(name, names_in_file(section, kind))));
+          }
         }
-      });
-    } else if (!is_file_text(name) && !is_origin(section, name)) {
-      faults.add(member.place, fmt::format("{} is not a key of a {} file{}", name, section,
-                                           suggestion(name, names_in_file(section, kind))));
-    }
-  }
+      };
+  read(content, section);
   faults.throw_if_any();
   return assignments;
 }

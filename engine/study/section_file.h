@@ -16,4 +16,8 @@ namespace millstudy::study {
 std::vector<Assignment> settings_of_file(const Key& key, const core::Value& value, const Kind& kind,
                                          const FileLoader& load);
 
+/// Turns lists of tables ([[modes.x]]) into tables of tables ([modes.x.0]), which is what keys are
+/// called. Throws core::InputError for a list with something else in it or too long.
+void number_lists(core::Value& table, const std::string& prefix, const Kind& kind);
+
 }  // namespace millstudy::study

@@ -70,7 +70,7 @@ class Documentation(ProgramTest):
     def test_every_key_is_shown_in_a_ready_made_study(self):
         shown = " ".join(path.read_text() for folder in ("studies", "data")
                          for path in sorted((SOURCE / folder).rglob("*.toml")))
-        keys = set(re.findall(r"^  [a-z_]+\.(\w+)", self.millstudy("keys").stdout, re.MULTILINE))
+        keys = set(re.findall(r"^  [a-z_.0-9]+\.(\w+)", self.millstudy("keys").stdout, re.MULTILINE))
         self.assertGreater(len(keys), 60)
         self.assertEqual([key for key in sorted(keys) if not re.search(rf"\b{key}\b", shown)], [])
 

@@ -290,6 +290,92 @@ def coefficient_laws(program, folder, check):
                 f"{scaled[0, 2]:.3f} N m at 0.05 mm")
 
 
+def insperger_lobes(program, folder, check):
+    result = run(program, "insperger_lobes", folder)
+    limit, speed = result["axial_depth_limit"], result["spindle_speed_rpm"]
+    source = "Insperger & Stepan 2004, two programs"
+    fixed = run(program, "insperger_lobes", folder, "stability.intervals=100",
+                'sweep.axes."cut.spindle_speed_rpm"=[5000.0, 10000.0, 15000.0, 20000.0, 25000.0]')
+    expected = [("0.419", "0.324", "0.388", "1.419", "3.940"), ("2.224", "4.098", "8.200", "2.300", "2.917")]
+    for i, immersion in enumerate((1, 0.05)):
+        for k, printed in enumerate(expected[i]):
+            check.number(f"immersion {immersion}, {5000 * (k + 1)} rpm, 100 intervals [mm]", source, printed,
+                         fixed["axial_depth_limit"][i, k], 0.005 * float(printed))
+    half = run(program, "insperger_lobes", folder, "stability.tolerance=5e-4")["axial_depth_limit"]
+    check.holds("limits with the tolerance halved: 0.1 %", (np.abs(limit / half - 1) < 1e-3).all(),
+                f"{np.abs(limit / half - 1).max():.1e}")
+    frequency = result["chatter_frequency_at_limit"]
+    tooth = 2 * speed / 60
+    halves = frequency[1] / tooth * 2
+    flips = np.isclose(halves, np.round(halves), atol=1e-6) & (np.round(halves) % 2 == 1)
+    check.holds("shallow cut: period doubling limits some speeds", 60 < flips.sum() < 200, f"{flips.sum()} of {speed.size}")
+
+
+def altintas_two_mode(program, folder, check):
+    result = run(program, "altintas_two_mode", folder)
+    limit = result["axial_depth_limit"]  # method, radial depth, speed
+    speed = result["spindle_speed_rpm"]
+    check.holds("slot, four teeth: zeroth order is exact", (np.abs(limit[0, 0] / limit[1, 0] - 1) < 1e-5).all(),
+                f"{np.abs(limit[0, 0] / limit[1, 0] - 1).max():.1e}")
+    ratio = limit[1, 1] / limit[0, 1]
+    check.number("5 % immersion: zeroth order over multipliers, most", "own run", "5.24", ratio.max(), 0.01)
+    check.number("at [rpm]", "own run", "15950", speed[ratio.argmax()])
+    check.number("least", "own run", "0.664", ratio.min(), 0.001)
+    frequency = result["chatter_frequency_at_limit"]
+    found = np.isfinite(frequency[:, 0]).all(axis=0)
+    check.holds("and both name the same frequency in the slot",
+                np.allclose(frequency[0, 0, found], frequency[1, 0, found], rtol=1e-4),
+                f"{np.abs(frequency[0, 0, found] / frequency[1, 0, found] - 1).max():.1e}")
+
+
+def variable_pitch_lobes(program, folder, check):
+    result = run(program, "variable_pitch_lobes", folder)
+    limit, speed = result["axial_depth_limit"], result["spindle_speed_rpm"]
+    for pitch, rpm, printed in ((0, 5100, "2.52"), (2, 5100, "6.30"), (0, 7400, "3.35"), (3, 7400, "6.17")):
+        check.number(f"pitch {result['pitch_deg'][pitch]} at {rpm} rpm [mm]", "own run", printed,
+                     limit[pitch, np.argmin(np.abs(speed - rpm))], 0.006)
+    lowest = limit.min(axis=1)
+    check.holds("the lowest limit over all speeds does not rise", lowest[0] >= lowest[1:].max(),
+                np.array2string(lowest, precision=2))
+
+
+def interval_convergence(program, folder, check):
+    result = run(program, "interval_convergence", folder)
+    off = result["axial_depth_limit"] / 0.40862777 - 1  # order, intervals; the limit of insperger_lobes at tolerance 1e-7
+    count = list(result["intervals"])
+    for order, intervals, printed in ((0, 40, "0.174"), (0, 100, "0.0247"), (1, 100, "0.0122"), (2, 40, "0.024"), (2, 100, "0.0010")):
+        check.number(f"order {order}, {intervals} intervals: limit off by", "own run", printed, off[order, count.index(intervals)])
+    for order in (0, 1):
+        ratio = off[order, count.index(400)] / off[order, count.index(800)]
+        check.number(f"order {order}: error at 400 over 800", "second order", "4.0", ratio, 0.2)
+
+
+def runout_chatter(program, folder, check):
+    result = run(program, "runout_chatter", folder)
+    stable, depth = result["stable"], result["axial_depth_mm"]
+    for row, offset, printed in zip(stable, result["runout_offset_mm"], ("1.8", "1.6", "2.2", "2.4")):
+        last = np.nonzero(row)[0].max()
+        first = depth[last + 1]
+        check.number(f"runout {offset} mm: it chatters from [mm]", "own run", printed, first, 0.21)
+    check.holds("what is stable decays", (result["spectral_radius"][stable == 1] < 1).all(), "")
+
+
+def stability_dataset(program, folder, check):
+    """A thinned grid: the million takes minutes."""
+    result = run(program, "stability_dataset", folder,
+                 'sweep.axes."cut.axial_depth_mm"={ from = 0.1, to = 10.0, count = 13 }',
+                 'sweep.axes."cut.spindle_speed_rpm"={ from = 3000.0, to = 18000.0, count = 31 }')
+    stable = result["stable"]  # flutes, radial, axial, speed
+    check.holds("every point has a label", np.isin(stable, (0, 1)).all(), f"{stable.size} points")
+    check.holds("the label is the radius below one", np.array_equal(stable == 1, result["spectral_radius"] < 1), "")
+    check.holds("deeper cuts are stable less often", (np.diff(stable.mean(axis=(0, 1, 3))) <= 0).all(),
+                np.array2string(stable.mean(axis=(0, 1, 3)), precision=2))
+    check.holds("wider cuts too", (np.diff(stable.mean(axis=(0, 2, 3))) <= 0).all(),
+                np.array2string(stable.mean(axis=(0, 2, 3)), precision=2))
+    check.holds("and more teeth", (np.diff(stable.mean(axis=(1, 2, 3))) <= 0).all(),
+                np.array2string(stable.mean(axis=(1, 2, 3)), precision=2))
+
+
 def main():
     program, study = sys.argv[1:]
     check = Checker()

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Keys of [[modes.x]], [[modes.y]] and [[modes.coupled]], and what must hold between them.
+#include <deque>
+#include <fmt/format.h>
+
+#include "study/key_table.h"
+#include "study/kind.h"
+
+namespace millstudy::study {
+namespace {
+
+using namespace table;
+
+constexpr Range kDamping = {0.0, 1.0, true, true};
+constexpr Range kFrequencies = {1e-3, 1e6};
+
+/// Paths that are made, not written: they outlive every key.
+std::string_view kept(std::string path) {
+  static std::deque<std::string> paths;
+  return paths.emplace_back(std::move(path));
+}
+
+// clang-format off
+
+void add_axis(std::vector<Key>& keys, std::string_view axis, std::string_view words,
+              std::array<AxisModeSection, ModesSection::kMost> ModesSection::*list, int item) {
+  const auto path = [&](std::string_view name) { return kept(fmt::format("modes.{}.{}.{}", axis, item, name)); };
+  const auto sets = [list, item](std::optional<double> AxisModeSection::*member) {
+    return [=](Case& c) -> Field { return &((c.modes.*list)[item].*member); };
+  };
+  keys.push_back({path("frequency_Hz"), kNumber, "Hz", kFrequencies, Optional{},
+                  words, sets(&AxisModeSection::frequency), {}, {}, {}, item});
+  keys.push_back({path("damping_ratio"), kNumber, "", kDamping, Optional{},
+                  "damping ratio", sets(&AxisModeSection::damping_ratio), {}, {}, {}, item});
+  keys.push_back({path("mass_kg"), kNumber, "kg", up_to(1e6), Optional{},
+                  "modal mass; or stiffness_N_per_m", sets(&AxisModeSection::mass), {}, {}, {}, item});
+  keys.push_back({path("stiffness_N_per_m"), kNumber, "N/m", up_to(1e13), Optional{},
+                  "modal stiffness; or mass_kg", sets(&AxisModeSection::stiffness), {}, {}, {}, item});
+}
+
+void add_coupled(std::vector<Key>& keys, int item) {
+  const auto path = [&](std::string_view name) { return kept(fmt::format("modes.coupled.{}.{}", item, name)); };
+  keys.push_back({path("frequency_Hz"), kNumber, "Hz", kFrequencies, Optional{},
+                  "natural frequency: of a mode that couples x and y, in a list [[modes.coupled]] of at most 4",
+                  [=](Case& c) -> Field { return &c.modes.coupled[item].frequency; }, {}, {}, {}, item});
+  keys.push_back({path("damping_ratio"), kNumber, "", kDamping, Optional{}, "damping ratio",
+                  [=](Case& c) -> Field { return &c.modes.coupled[item].damping_ratio; }, {}, {}, {}, item});
+  keys.push_back({path("residue_per_kg"), kNumbers, "1/kg", within(1e9), Optional{},
+                  "residues: of displacement over force, xx, xy, yx, yy",
+                  [=](Case& c) -> Field { return &c.modes.coupled[item].residue; }, {}, {}, {4, 4}, item});
+}
+
+std::vector<Key> make_keys() {
+  std::vector<Key> keys = {
+      {"modes.modes_file", kFile, "", {}, Optional{},
+       "modes: [[x]], [[y]] and [[coupled]] from a TOML file, where they are not given here"},
+  };
+  for (int i = 0; i < static_cast<int>(ModesSection::kMost); ++i) {
+    add_axis(keys, "x", "natural frequency: of tool or workpiece along x, in a list [[modes.x]] of at most 8", &ModesSection::x, i);
+  }
+  for (int i = 0; i < static_cast<int>(ModesSection::kMost); ++i) {
+    add_axis(keys, "y", "natural frequency: of tool or workpiece along y, in a list [[modes.y]] of at most 8", &ModesSection::y, i);
+  }
+  for (int i = 0; i < static_cast<int>(ModesSection::kMostCoupled); ++i) add_coupled(keys, i);
+  return keys;
+}
+
+// clang-format on
+
+/// Faults of one mode. @return true if there is one
+bool check_mode(const Given& given, const std::string& mode, bool coupled, Faults& faults) {
+  const auto path = [&](std::string_view name) { return fmt::format("{}.{}", mode, name); };
+  const auto has = [&](std::string_view name) { return given.has(path(name)); };
+  const std::vector<std::string_view> names =
+      coupled ? std::vector<std::string_view>{"frequency_Hz", "damping_ratio", "residue_per_kg"}
+              : std::vector<std::string_view>{"frequency_Hz", "damping_ratio", "mass_kg",
+                                              "stiffness_N_per_m"};
+  std::string given_one;
+  for (const std::string_view name : names) {
+    if (has(name)) given_one = path(name);
+  }
+  if (given_one.empty()) return false;
+  const core::Place place = given.entries.find(given_one)->second.place;
+  const auto need = [&](std::string_view name, std::string_view words) {
+    if (!has(name)) faults.add(place, fmt::format("{} is missing: {}", path(name), words));
+  };
+  need("frequency_Hz", "natural frequency [Hz]");
+  need("damping_ratio", "damping ratio");
+  if (coupled) {
+    need("residue_per_kg", "residues xx, xy, yx, yy [1/kg]");
+  } else if (has("mass_kg") && has("stiffness_N_per_m")) {
+    faults.add(place, fmt::format("{} contradicts {}: give one of them", path("stiffness_N_per_m"),
+                                  path("mass_kg")));
+  } else if (!has("mass_kg") && !has("stiffness_N_per_m")) {
+    faults.add(place, fmt::format("{} [kg] or stiffness_N_per_m [N/m] is missing: modal mass or "
+                                  "stiffness",
+                                  path("mass_kg")));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::span<const Key> modes_keys() {
+  static const std::vector<Key> keys = make_keys();
+  return keys;
+}
+
+void check_modes_keys(const Given& given, Faults& faults) {
+  bool any = given.has("modes.modes_file");
+  for (std::size_t i = 0; i < ModesSection::kMost; ++i) {
+    for (const std::string_view axis : {"x", "y"}) {
+      any |= check_mode(given, fmt::format("modes.{}.{}", axis, i), false, faults);
+    }
+  }
+  for (std::size_t i = 0; i < ModesSection::kMostCoupled; ++i) {
+    any |= check_mode(given, fmt::format("modes.coupled.{}", i), true, faults);
+  }
+  if (any) return;
+  faults.add(given.file,
+             "modes are missing: give [[modes.x]], [[modes.y]] or both, each with frequency_Hz, "
+             "damping_ratio and mass_kg or stiffness_N_per_m; or modes_file");
+}
+
+}  // namespace millstudy::study
