@@ -2,6 +2,7 @@
 #include "cli/open_study.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
@@ -49,8 +50,26 @@ void forget_lines(core::Value& value) {
   }
 }
 
+/// The entry of a list of tables that a part of a dotted key means: modes.x.0, or a new one
+/// after the last; null for what is no such place.
+core::Value* entry_of(core::Value& target, const std::string& key) {
+  auto* list = std::get_if<core::Value::Array>(&target.data);
+  std::size_t at = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), at);
+  const bool whole = error == std::errc() && end == key.data() + key.size();
+  if (!list || !whole || at > list->size()) return nullptr;
+  if (at == list->size()) list->push_back({core::Value::Table{}, target.place});
+  return &(*list)[at];
+}
+
 /// Puts what the override says over what the file says; tables are merged, all else is replaced.
 void merge(core::Value& target, core::Value&& change) {
+  if (target.is_array() && change.is_table() && change.table().size() == 1) {
+    core::Member& member = change.table().front();
+    if (core::Value* entry = entry_of(target, member.key)) {
+      return merge(*entry, std::move(member.value));
+    }
+  }
   if (!target.is_table() || !change.is_table()) {
     target = std::move(change);
     return;

@@ -64,6 +64,7 @@ CollocationMap::CollocationMap(const DelaySystem& system, const Collocation& set
     : states_(system.machine.states()),
       moving_(system.machine.moving()),
       nodes_(settings.nodes),
+      axes_(system.machine.axes),
       period_(system.period),
       c_(system.machine.c) {
   if (nodes_ < 2 || nodes_ > 16) {
@@ -142,7 +143,8 @@ void CollocationMap::add_taps(int element, int node, double time, const DelayedG
   }
 }
 
-void CollocationMap::run(const double* in, std::vector<double>& positions, double* state) const {
+void CollocationMap::run(const double* in, std::vector<double>& positions, double* state,
+                         const double* force_at_nodes) const {
   const Eigen::Index n = states_, m = moving_;
   const std::size_t per_element = m * (nodes_ + 1);
   positions.resize(m * history_ + per_element * elements_.size());
@@ -152,8 +154,13 @@ void CollocationMap::run(const double* in, std::vector<double>& positions, doubl
   double* first = positions.data() + m * history_;
   for (const Element& element : elements_) {
     Eigen::Map<Eigen::VectorXd>(first, m).noalias() = c_ * given.head(n);
-    given.tail(m * nodes_).setZero();
     double* force = given.data() + n;
+    if (force_at_nodes) {
+      std::copy(force_at_nodes, force_at_nodes + m * nodes_, force);
+      force_at_nodes += m * nodes_;
+    } else {
+      given.tail(m * nodes_).setZero();
+    }
     for (const Tap& tap : element.taps) {
       const double* u = first + m * tap.place;
       double* f = force + m * tap.node;
@@ -176,6 +183,35 @@ void CollocationMap::apply(const double* in, double* out) const {
   thread_local std::vector<double> positions;
   run(in, positions, out + moving_ * history_);
   std::copy(positions.end() - moving_ * history_, positions.end(), out);
+}
+
+std::vector<double> CollocationMap::force_at_nodes(
+    const std::function<Eigen::Vector2d(double t)>& force) const {
+  const GaussCollocation& gauss = gauss_collocation(nodes_);
+  std::vector<double> all;
+  for (const Element& element : elements_) {
+    for (int i = 0; i < nodes_; ++i) {
+      const Eigen::Vector2d f = force(element.start + gauss.nodes[i] * element.length);
+      for (const int axis : axes_) all.push_back(f[axis]);
+    }
+  }
+  return all;
+}
+
+void CollocationMap::apply(const double* in, double* out, const std::vector<double>& force) const {
+  thread_local std::vector<double> positions;
+  run(in, positions, out + moving_ * history_, force.data());
+  std::copy(positions.end() - moving_ * history_, positions.end(), out);
+}
+
+PeriodicMotion CollocationMap::motion(const double* in, const std::vector<double>& force) const {
+  std::vector<double> positions;
+  Eigen::VectorXd state(states_);
+  run(in, positions, state.data(), force.data());
+  std::vector<double> starts;
+  for (const Element& element : elements_) starts.push_back(element.start);
+  positions.erase(positions.begin(), positions.begin() + moving_ * history_);
+  return {period_, std::move(starts), nodes_, axes_, std::move(positions)};
 }
 
 LinearMap CollocationMap::map() const {

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "dynamics/arnoldi.h"
 #include "dynamics/delay_system.h"
+#include "dynamics/periodic_motion.h"
 
 namespace millstudy::dynamics {
 
@@ -31,6 +33,13 @@ class CollocationMap {
   void apply(const double* in, double* out) const;
   LinearMap map() const;
 
+  /// (D30): a force on the tool [N] at the nodes of all elements, as apply() takes it.
+  std::vector<double> force_at_nodes(const std::function<Eigen::Vector2d(double t)>& force) const;
+  /// apply() under such a force.
+  void apply(const double* in, double* out, const std::vector<double>& force) const;
+  /// The motion of that period.
+  PeriodicMotion motion(const double* in, const std::vector<double>& force) const;
+
   /// (D13): Fourier coefficients of the motion under a vector with this multiplier: of the
   /// harmonics -harmonics .. harmonics of the period on top of the multiplier's own frequency;
   /// shape (m, 2 harmonics + 1).
@@ -51,9 +60,11 @@ class CollocationMap {
   };
   void add_stretch(const DelaySystem& system, double start, double end, double longest);
   void add_taps(int element, int node, double time, const DelayedGain& delayed);
-  void run(const double* in, std::vector<double>& positions, double* state) const;
+  void run(const double* in, std::vector<double>& positions, double* state,
+           const double* force = nullptr) const;
 
   int states_, moving_, nodes_;
+  std::vector<int> axes_;
   int history_ = 0;  // positions
   double period_;
   std::vector<Element> elements_;

@@ -29,9 +29,9 @@ class SimulatedEdge {
     std::vector<Before> before;     ///< nearest first
   };
 
-  /// @param discs  over the depth, >= 1
+  /// @param slices  of each piece of the envelope below the depth; 0: as many as it needs
   /// @param turns  of teeth before
-  SimulatedEdge(const force::CuttingEdges& edges, int discs, int turns, bool all_before);
+  SimulatedEdge(const force::CuttingEdges& edges, int slices, int turns, bool all_before);
 
   const std::vector<Disc>& discs() const { return discs_; }
 

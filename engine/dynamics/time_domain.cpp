@@ -33,26 +33,13 @@ void check(const TimeDomain& settings, double spindle_speed) {
   }
 }
 
-int number_of_discs(const force::CuttingEdges& edges, const TimeDomain& settings) {
-  if (settings.discs > 0) return settings.discs;
-  double steepest = 0.0;
-  for (const cutter::Flute& flute : edges.flutes()) {
-    steepest = std::max(steepest, std::abs(flute.helix_tangent));
-  }
-  const double lag = steepest * edges.envelope().lag(edges.axial_depth());
-  const bool plain = edges.pieces().size() == 1 && edges.pieces()[0].segment.is_cylinder() &&
-                     !edges.variation().with_height();
-  return std::clamp(static_cast<int>(std::ceil(lag / core::rad_from_deg(5.0))), plain ? 1 : 20,
-                    400);
-}
-
 class Simulation {
  public:
   Simulation(const Machine& machine, const force::CuttingEdges& edges, const force::Arc& arc,
              const force::Coefficients& coefficients, double spindle_speed,
              const TimeDomain& settings)
       : space_(state_space(machine)),
-        edge_(edges, number_of_discs(edges, settings), kTurnsBefore, settings.tool_leaves_cut),
+        edge_(edges, settings.discs, kTurnsBefore, settings.tool_leaves_cut),
         variation_(edges.variation()),
         arc_(arc),
         k_{coefficients.Ktc, coefficients.Krc, coefficients.Kac,
@@ -241,9 +228,11 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
   const int every = simulation.steps() / kSamples;
   for (int turn = 0; turn < settings.revolutions; ++turn) {
     double square = 0.0;
+    result.last_turn.clear();
     for (int i = 0; i < simulation.steps(); ++i) {
       const Eigen::Vector2d place = simulation.advance(true);
       if (i == 0) result.once_per_turn.push_back(place);
+      result.last_turn.push_back(place);
       if (i % every == 0) now[i / every] = place;
     }
     for (int i = 0; i < kSamples; ++i) square += (now[i] - last[i]).squaredNorm();

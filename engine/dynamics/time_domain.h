@@ -15,9 +15,9 @@ struct TimeDomain {
   double feed_per_tooth = 0.05;  ///< [mm], >= 0
   bool tool_leaves_cut = true;   ///< no negative chips, and every tooth before counts
   int steps_per_cycle = 60;      ///< of the fastest mode, >= 10
-  int discs = 0;                 ///< of the edge; 0: so many that one lags by 5 deg at most
-  int revolutions = 400;         ///< looked at before a verdict by what there is then, >= 10
-  double decades = 3.0;          ///< of growth or decay for an early verdict
+  int discs = 0;          ///< of each piece of the edge; 0: so many that one lags by 5 deg at most
+  int revolutions = 400;  ///< looked at before a verdict by what there is then, >= 10
+  double decades = 3.0;   ///< of growth or decay for an early verdict
 };
 
 /// What a simulated cut does.
@@ -28,6 +28,8 @@ struct Simulated {
   int revolutions = 0;
   /// Positions x, y [mm] once a revolution, as the tip of flute 0 passes 0; shape (revolutions).
   std::vector<Eigen::Vector2d> once_per_turn;
+  /// Positions x, y [mm] of the last turn, equally spaced from the tip of flute 0 at 0.
+  std::vector<Eigen::Vector2d> last_turn;
 };
 
 /// (D23)-(D25): a cut step by step in time: modes by their exact exponential under the force at the

@@ -106,6 +106,19 @@ struct StabilitySection {
   int revolutions = 400;                ///< of the time domain
 };
 
+enum class FinishMethod { periodic, time_domain };
+enum class FinishWall { automatic, up, down };
+
+struct FinishSection {
+  FinishMethod method = FinishMethod::periodic;
+  double tolerance = 1e-4;
+  int revolutions = 400;  ///< of the simulation
+  FinishWall wall = FinishWall::automatic;
+  std::optional<double> height;    ///< above the tip [mm]
+  double sampling_length = 0.8;    ///< [mm]
+  std::optional<double> stepover;  ///< [mm]
+};
+
 /// One point of a study in native units: what the keys set and the kinds compute from.
 struct Case {
   PathSection path;
@@ -120,6 +133,7 @@ struct Case {
   MeasurementSection measurement;
   ModesSection modes;
   StabilitySection stability;
+  FinishSection finish;
 };
 
 /// The six coefficients that forces are computed with: those given times the scales; for model

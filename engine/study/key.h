@@ -83,7 +83,7 @@ using Field =
     std::variant<double*, std::optional<double>*, int*, std::vector<double>*, NumberOrNumbers,
                  PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*, cutter::Shape*, cutter::Lead*,
                  cutter::EdgeMeasure*, force::Rule*, std::optional<Milling>*, process::Stock*,
-                 CoefficientModel*, StabilityMethod*>;
+                 CoefficientModel*, StabilityMethod*, FinishMethod*, FinishWall*>;
 
 /// One key of a study: the only place that says what it is called, what it may be and what it
 /// sets. Validation, the key reference, sweep axes and the case of a point all come from here.
@@ -142,6 +142,7 @@ std::span<const Key> numerics_keys();     ///< [numerics]
 std::span<const Key> measurement_keys();  ///< [measurement], for kind force
 std::span<const Key> modes_keys();        ///< [[modes.x]], [[modes.y]], [[modes.coupled]]
 std::span<const Key> stability_keys();    ///< [stability]
+std::span<const Key> finish_keys();       ///< [finish]
 
 /// The setting that a value of a file stands for.
 /// @throws core::InputError at the value's place, of a list with every fault: wrong type, not

@@ -3,6 +3,7 @@
 #include <deque>
 #include <fmt/format.h>
 
+#include "cutter/flutes.h"
 #include "study/key_table.h"
 #include "study/kind.h"
 
@@ -120,6 +121,23 @@ void check_modes_keys(const Given& given, Faults& faults) {
   faults.add(given.file,
              "modes are missing: give [[modes.x]], [[modes.y]] or both, each with frequency_Hz, "
              "damping_ratio and mass_kg or stiffness_N_per_m; or modes_file");
+}
+
+void check_linear_keys(const Given& given, const Case& base, std::string_view method,
+                       Faults& faults) {
+  const auto refuse = [&](std::initializer_list<std::string_view> keys, std::string_view what) {
+    faults.add(
+        given.place(keys),
+        fmt::format("{} is for {} = \"time_domain\" only: without, the cut is taken as linear",
+                    what, method));
+  };
+  if (cutter::has_runout(base.cutter) ||
+      given.any_swept({"cutter.runout_offset_mm", "cutter.runout_tilt_deg"})) {
+    refuse({"cutter.runout_offset_mm", "cutter.runout_tilt_deg"}, "runout");
+  }
+  const std::initializer_list<std::string_view> exponents = {
+      "coefficients.Ktc_exponent", "coefficients.Krc_exponent", "coefficients.Kac_exponent"};
+  if (variation(base).with_chip() || given.any_swept(exponents)) refuse(exponents, "a size effect");
 }
 
 }  // namespace millstudy::study

@@ -94,6 +94,10 @@ void check_cut(const Given& given, const Case& base, Faults& faults);
 void check_engagement_keys(const Given& given, const Case& base, Faults& faults);
 /// Rules of [[modes.x]], [[modes.y]] and [[modes.coupled]].
 void check_modes_keys(const Given& given, Faults& faults);
+/// What makes a cut nonlinear is for a simulation only.
+/// @param method  the key that chooses
+void check_linear_keys(const Given& given, const Case& base, std::string_view method,
+                       Faults& faults);
 /// Rules of [measurement].
 void check_measurement(const Given& given, const Case& base, Faults& faults);
 /// Rules of [numerics].

@@ -263,20 +263,7 @@ void check_keys(const Given& given, const Case& base, Faults& faults) {
   const bool linear = may_be(given, StabilityMethod::semi_discretization) ||
                       may_be(given, StabilityMethod::zeroth_order);
   if (!linear) return;
-  constexpr std::string_view kWhy =
-      "{} is for stability.method = \"time_domain\" only: multipliers are those of a linear cut";
-  if (cutter::has_runout(base.cutter) ||
-      given.any_swept({"cutter.runout_offset_mm", "cutter.runout_tilt_deg"})) {
-    faults.add(given.place({"cutter.runout_offset_mm", "cutter.runout_tilt_deg"}),
-               fmt::format(kWhy, "runout"));
-  }
-  if (variation(base).with_chip() ||
-      given.any_swept({"coefficients.Ktc_exponent", "coefficients.Krc_exponent",
-                       "coefficients.Kac_exponent"})) {
-    faults.add(given.place({"coefficients.Ktc_exponent", "coefficients.Krc_exponent",
-                            "coefficients.Kac_exponent", "coefficients.model"}),
-               fmt::format(kWhy, "a size effect"));
-  }
+  check_linear_keys(given, base, "stability.method", faults);
 }
 
 void check_values(const Given& given, const Case& base, Faults& faults) {

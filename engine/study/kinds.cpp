@@ -6,11 +6,8 @@
 namespace millstudy::study {
 
 std::span<const Kind* const> kinds() {
-  static const std::array<const Kind*, 4> all = {
-      &path_kind(),
-      &force_kind(),
-      &path_force_kind(),
-      &stability_kind(),
+  static const std::array<const Kind*, 5> all = {
+      &path_kind(), &force_kind(), &path_force_kind(), &stability_kind(), &finish_kind(),
   };
   return all;
 }

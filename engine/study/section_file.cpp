@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/section_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
@@ -54,12 +55,23 @@ Setting read_object(const Key& key, const core::Value& content) {
   return read_curve(content);
 }
 
+bool is_number(std::string_view name) {
+  return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// What is at fault is told once: the rest of the study then sees a list as if it were right.
 void number_list(core::Value& list, const std::string& path, const Kind& kind) {
   const core::InputError no_list(list.place,
                                  fmt::format("{0} must be a list of tables: [[{0}]]", path));
   if (!list.is_array()) {
-    if (list.is_table()) list.data = core::Value::Table{{"0", list}};
+    if (list.is_table()) {
+      // A command line may name an entry that is not there: what is wrong about it is told below.
+      const bool numbered = !list.table().empty() && is_number(list.table().front().key);
+      if (numbered) return;
+      list.data = core::Value::Table{{"0", list}};
+    } else {
+      list.data = core::Value::Table{};
+    }
     throw no_list;
   }
   core::Value::Table numbered;

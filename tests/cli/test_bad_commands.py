@@ -33,7 +33,7 @@ class BadCommands(ProgramTest):
         self.check(["run", "study.toml", "--block-size", "0"], "millstudy run: --block-size: Value 0 "
                    "not in range 1 to 1000000; see millstudy run --help")
         self.check(["keys", "turning"],
-                   'there is no kind "turning": one of path, force, path_force, stability, fit')
+                   'there is no kind "turning": one of path, force, path_force, stability, finish, fit')
 
     def test_set(self):
         run = ["run", "study.toml", "--set"]

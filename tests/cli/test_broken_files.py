@@ -60,7 +60,7 @@ class UnreadableFiles(ProgramTest):
     def test_empty(self):
         self.write("")
         self.check("study.toml",
-                   "study.toml: study.kind is missing: one of path, force, path_force")
+                   "study.toml: study.kind is missing: one of path, force, path_force, stability, finish")
 
     def test_one_long_line(self):
         self.write("x" * 100_000)
