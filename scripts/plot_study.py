@@ -24,7 +24,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import LogNorm, Normalize  # noqa: E402
 from matplotlib.ticker import MaxNLocator, MultipleLocator  # noqa: E402
 
-FIRST_CHOICES = ("force_resultant_mean", "feed_fluctuation_max")
+FIRST_CHOICES = ("force_resultant_mean", "feed_fluctuation_max", "axial_depth_limit", "surface_location_error",
+                 "spectral_radius")
 # Okabe and Ito's colours: told apart with every kind of colour vision.
 CURVE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 # Curves that coincide show through each other's gaps, markers inside each other.

@@ -13,7 +13,7 @@ std::span<const Key> general_keys() {
   static const std::vector<Key> keys = {
       {"schema_version", kInteger, "", {1.0, 1.0}, Required{}, "version of the study file: 1"},
       {"study.name", kText, "", {}, Required{}, "names the result file, NAME.h5: letters, digits, _ - + and dots"},
-      {"study.kind", kText, "", {}, Required{}, "what is computed: path, force, path_force or stability"},
+      {"study.kind", kText, "", {}, Required{}, "what is computed: path, force, path_force, stability or finish"},
       {"study.description", kText, "", {}, "", "the question, in a sentence"},
   };
   return keys;

@@ -25,9 +25,9 @@ constexpr int kSamplesPerTooth = 1024;  // of the profile: Rz to 0.2 %
 
 std::vector<sweep::Column> columns(const Outputs&) {
   return {
-      {"stable", "1", "1 if the cut is stable, 0 if it chatters"},
+      {"stable", "1", "stable cut"},
       {"spectral_radius", "1", "growth of a disturbance over a period", true},
-      {"surface_location_error", "um", "surface location error, > 0: too much is removed", true},
+      {"surface_location_error", "um", "surface location error", true},
       {"surface_location_error_min", "um", "lowest surface location error over the height", true},
       {"surface_location_error_max", "um", "highest surface location error over the height", true},
       {"roughness_ra", "um", "roughness Ra of the wall along the feed", true},

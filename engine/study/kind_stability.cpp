@@ -24,14 +24,14 @@ constexpr int kIntervalsKept = 4;  // of stable depth
 
 std::vector<sweep::Column> columns(const Outputs& outputs) {
   std::vector<sweep::Column> all = {
-      {"stable", "1", "1 if the cut is stable, 0 if it chatters"},
+      {"stable", "1", "stable cut"},
       {"spectral_radius", "1", "growth of a disturbance over a period", true},
       {"multiplier_real", "1", "dominant multiplier, real part", true},
       {"multiplier_imaginary", "1", "dominant multiplier, imaginary part", true},
       {"chatter_frequency", "Hz", "strongest frequency of the dominant motion", true},
   };
   if (outputs.depth_is_axis) return all;
-  all.push_back({"axial_depth_limit", "mm", "lowest boundary of stable axial depth"});
+  all.push_back({"axial_depth_limit", "mm", "limit of axial depth"});
   all.push_back({"chatter_frequency_at_limit", "Hz", "chatter frequency at that boundary", true});
   all.push_back({"stable_depths", "1", "intervals of stable axial depth"});
   for (int i = 1; i <= kIntervalsKept; ++i) {

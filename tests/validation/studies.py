@@ -360,6 +360,38 @@ def runout_chatter(program, folder, check):
     check.holds("what is stable decays", (result["spectral_radius"][stable == 1] < 1).all(), "")
 
 
+def surface_location_error(program, folder, check):
+    result = run(program, "surface_location_error", folder)
+    error, speed = result["surface_location_error"], result["spindle_speed_rpm"]  # milling, speed
+    check.number("down-milling: largest error [um]", "own run", "-18.5", error[1].min(), 0.06)
+    check.number("at [rpm]", "own run", "9850", speed[error[1].argmin()], 51)
+    last = np.nonzero(np.diff(np.sign(error[1])))[0].max()
+    check.number("it changes sign past the synchronous speed, at [rpm]", "own run", "20340", speed[last:last + 2].mean(), 40)
+    check.holds("up-milling stays within 2 um", np.abs(error[0]).max() < 2, f"{np.abs(error[0]).max():.2f} um")
+    simulated = run(program, "surface_location_error", folder, 'finish.method="time_domain"',
+                    'sweep.axes."cut.spindle_speed_rpm"={ from = 4000.0, to = 25000.0, count = 22 }')
+    off = np.abs(simulated["surface_location_error"] - error[:, ::20]) / result["vibration_y_peak_to_peak"][:, ::20]
+    check.holds("the simulation in time gives the same: 0.5 % of the vibration", off.max() < 5e-3, f"{off.max():.1e}")
+    # f^2 / (8 R), and what the speed of the feed stretches
+    stretch = 1 + np.array([1, -1]) * 0.16 / (2 * np.pi) / 8
+    rigid = 1e3 * 0.08**2 / (8 * 8) / stretch**2
+    far = result["roughness_rz"][:, -1] / rigid
+    check.holds("Rz far from resonance is that of a rigid tool, within 5 %", np.abs(far - 1).max() < 0.05, f"{far}")
+
+
+def finish_dataset(program, folder, check):
+    result = run(program, "finish_dataset", folder)
+    stable = result["stable"] == 1
+    check.holds("some cuts chatter, most do not", 0.5 < stable.mean() < 0.99, f"{stable.mean():.3f} of {stable.size} stable")
+    for name in ("surface_location_error", "roughness_ra", "roughness_rq", "roughness_rz"):
+        check.holds(f"{name} where stable, nowhere else", np.array_equal(np.isfinite(result[name]), stable), "")
+    cusp = result["cusp_height"][:, 0, 0, 0, 0, 0]
+    check.number("cusps of a ball of 6 mm at 0.5 mm [um]", "R - sqrt(R^2 - e^2/4)", "10.43", cusp[2])
+    check.holds("none between flat ends", (cusp[:2] == 0).all(), "")
+    check.holds("Ra <= Rq <= Rz", ((result["roughness_ra"] <= result["roughness_rq"])[stable].all()
+                                   and (result["roughness_rq"] <= result["roughness_rz"])[stable].all()), "")
+
+
 def stability_dataset(program, folder, check):
     """A thinned grid: the million takes minutes."""
     result = run(program, "stability_dataset", folder,
