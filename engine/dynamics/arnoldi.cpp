@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -94,15 +95,92 @@ bool is_time_to_look(int steps) {
   return false;
 }
 
+/// The eigenvalue of larger modulus of [a b; c d], and its vector.
+Ritz dominant_of_two(double a, double b, double c, double d) {
+  const double middle = 0.5 * (a + d), half = 0.5 * (a - d), square = half * half + b * c;
+  const double root = std::sqrt(std::abs(square));
+  std::complex<double> value;
+  if (square < 0.0)
+    value = {middle, root};
+  else
+    value = middle < 0.0 ? middle - root : middle + root;
+  Eigen::VectorXcd vector(2);
+  vector << b, value - a;
+  if (vector.norm() == 0.0) vector << value - d, c;
+  if (vector.norm() == 0.0) vector << 1.0, 0.0;
+  return {value, vector.normalized()};
+}
+
+/// Applies the map again and again, and looks at the plane of the last two vectors, where a
+/// dominant pair ends up. Stops when it has converged or will not soon.
+///
+/// @param x  in: the start; out: the last vector, a start for another method
+DominantEigenvalue by_powers(const LinearMap& map, double tolerance, Eigen::VectorXd& x) {
+  constexpr int kSoon = 40;             // applications
+  constexpr int kLook = 2, kTrend = 2;  // looks at every other, compares with two looks ago
+  DominantEigenvalue result;
+  Eigen::VectorXd image(map.size), second(map.size), q2(map.size);
+  map.apply(x.data(), image.data());
+  ++result.applications;
+  std::array<double, kTrend> residuals;
+  residuals.fill(1e300);
+  for (int k = 0; k < 4 * kSoon; ++k) {
+    const double norm = image.norm();
+    if (!(norm < kLargestGrowth) || norm < 1.0 / kLargestGrowth) return result;
+    map.apply(image.data(), second.data());
+    ++result.applications;
+    if (k % kLook == kLook - 1) {
+      // On q1 = x and q2, the part of its image across it.
+      const double h11 = x.dot(image);
+      q2 = image - h11 * x;
+      const double h21 = q2.norm();
+      const double along = x.dot(second), across = q2.dot(second);
+      const double h12 = h21 > 0.0 ? (along - h11 * h11) / h21 : 0.0;
+      const double h22 = h21 > 0.0 ? (across / h21 - h11 * h21) / h21 : 0.0;
+      const Ritz ritz = dominant_of_two(h11, h12, h21, h22);
+      const double modulus = std::abs(ritz.value);
+      // What of the image of q2 is in neither: M q2 = (second - h11 image) / h21.
+      double out = 0.0;
+      if (h21 > 0.0) {
+        out = (second - h11 * image - h21 * (h12 * x + h22 / h21 * q2)).norm() / h21;
+      }
+      result.residual = out * std::abs(ritz.vector[1]) / modulus;
+      result.value = ritz.value;
+      const bool done = h21 <= 1e-15 * std::abs(h11) || result.residual <= tolerance;
+      if (done) {
+        result.converged = true;
+        result.vector = x * ritz.vector[0];
+        if (h21 > 0.0) result.vector += q2 * (ritz.vector[1] / h21);
+        return result;
+      }
+      const double before = residuals[k / kLook % kTrend];
+      residuals[k / kLook % kTrend] = result.residual;
+      if (k >= kLook * (kTrend + 1)) {
+        const double rate = std::log(result.residual / before) / (kLook * kTrend);
+        const double left = std::log(tolerance / result.residual) / rate;
+        if (!(rate < 0.0 && left < kSoon)) break;
+      }
+    }
+    x = image * (1.0 / norm);
+    image = second * (1.0 / norm);
+  }
+  return result;
+}
+
 }  // namespace
 
 DominantEigenvalue dominant_eigenvalue(const LinearMap& map, const ArnoldiSettings& settings) {
   const int n = map.size;
+  Eigen::VectorXd start = start_vector(n, settings.start);
+  if (n > 2) {
+    DominantEigenvalue quick = by_powers(map, settings.tolerance, start);
+    if (quick.converged) return quick;
+  }
   const int most = std::min(n, settings.largest_basis);
   DominantEigenvalue result;
   Eigen::MatrixXd basis(n, std::min(n, 32) + 1);
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
-  basis.col(0) = start_vector(n, settings.start);
+  basis.col(0) = start;
   for (int restart = 0; restart <= settings.restarts; ++restart) {
     h.setZero();
     for (int k = 0; k < most; ++k) {

@@ -33,7 +33,8 @@ struct DominantEigenvalue {
   bool converged = false;
 };
 
-/// (D12): the dominant eigenvalue by Arnoldi's method with two passes of orthogonalisation.
+/// (D12): the dominant eigenvalue, by powers of the map while these converge fast, else by
+/// Arnoldi's method with two passes of orthogonalisation.
 ///
 /// The basis grows until the residual is met: the maps of delay systems are compact, their
 /// eigenvalues crowd about 0, and a few dozen vectors are enough. Deterministic: the start is a

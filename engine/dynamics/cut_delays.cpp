@@ -109,17 +109,13 @@ AveragedGains averages(const Source& source, int intervals) {
   all.delayed.assign(intervals * count, Eigen::Matrix2d::Zero());
   const double per_angle = 1.0 / (source.speed * step);
   for (const Slice& slice : sliced.slices) {
-    const auto swept = [&](int i) {
-      return source.cut.swept(slice.flute, source.tip_angle(slice.flute, i * step), slice.bottom,
-                              slice.top);
-    };
-    Eigen::Matrix2d before = swept(0);
+    const std::vector<Eigen::Matrix2d> swept =
+        source.cut.swept(slice.flute, source.tip_angle(slice.flute, 0.0), source.speed * step,
+                         intervals + 1, slice.bottom, slice.top);
     for (int i = 0; i < intervals; ++i) {
-      const Eigen::Matrix2d after = swept(i + 1);
-      const Eigen::Matrix2d a = per_angle * source.moving(after - before);
+      const Eigen::Matrix2d a = per_angle * source.moving(swept[i + 1] - swept[i]);
       all.direct[i] += a;
       all.delayed[i * count + slice.delay] += a;
-      before = after;
     }
   }
   return all;

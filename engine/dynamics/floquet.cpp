@@ -85,10 +85,13 @@ Eigen::MatrixXcd spectrum_of(const Eigen::MatrixXcd& motion, std::complex<double
 
 Floquet by_intervals(const DelaySystem& system, const FloquetSettings& settings) {
   const SemiDiscretizedMap map(system, {settings.intervals, settings.order});
-  const DominantEigenvalue found = dominant_eigenvalue(map.map());
+  ArnoldiSettings arnoldi;
+  arnoldi.tolerance = 1e-10;  // far below what intervals leave
+  const DominantEigenvalue found = dominant_eigenvalue(map.map(), arnoldi);
   if (!found.converged) throw core::CaseError("the dominant multiplier did not converge");
   Floquet result;
   set_multiplier(result, found.value);
+  if (!settings.frequencies) return result;
   const auto spectrum = [&] { return spectrum_of(map.motion(found.vector), found.value); };
   set_frequencies(result, spectrum, system.period);
   return result;
@@ -129,6 +132,7 @@ Floquet floquet(const DelaySystem& system, const FloquetSettings& settings, int 
     result.error = std::abs(result.spectral_radius - before) / result.spectral_radius;
     if (result.error <= 0.1 * settings.tolerance || result.error < 1e-12) {
       result.level = level - 1;
+      if (!settings.frequencies) return result;
       const auto spectrum = [&] { return map.spectrum(found.vector, found.value, kHarmonics); };
       set_frequencies(result, spectrum, system.period);
       return result;

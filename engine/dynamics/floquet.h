@@ -24,8 +24,9 @@ struct FloquetSettings {
   /// Relative error of the spectral radius, kept by estimate: collocation of rising order until
   /// two differ by less than a tenth of this. From 1e-12.
   double tolerance = 1e-3;
-  int intervals = 0;  ///< if > 0: semi-discretization with so many instead
-  int order = 0;      ///< of the semi-discretization, 0 .. 2
+  int intervals = 0;        ///< if > 0: semi-discretization with so many instead
+  int order = 0;            ///< of the semi-discretization, 0 .. 2
+  bool frequencies = true;  ///< without, those of chatter are not looked for
 };
 
 /// What a period of the cut makes of a small disturbance.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/interval_step.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 namespace millstudy::dynamics {
@@ -31,35 +30,61 @@ Eigen::MatrixXd exponential(const Eigen::MatrixXd& a) {
   return sum;
 }
 
-/// One mode under a constant force. exp(a h) = e^(s h) (C + S (a - s)), s half the trace.
-IntervalStep one_mode(const Eigen::Matrix2d& a, const Eigen::Vector2d& b, double h) {
-  const double s = 0.5 * a.trace();
-  const double square = s * s - a.determinant();
-  const double root = std::sqrt(std::abs(square));
-  const double x = root * h;
-  const double c = square < 0.0 ? std::cos(x) : std::cosh(x);
-  const double sine = x == 0.0 ? h : (square < 0.0 ? std::sin(x) : std::sinh(x)) / root;
-  Eigen::Matrix2d e = sine * a;
-  e.diagonal().array() += c - s * sine;
-  e *= std::exp(s * h);
-  IntervalStep step;
-  step.exponential = e;
-  e.diagonal().array() -= 1.0;
-  step.drive[0] = a.inverse() * (e * b);
-  return step;
+}  // namespace
+
+bool OneModeStep::serves(const StateSpace& machine, int terms) {
+  return machine.states() == 2 && machine.moving() == 1 && terms == 1;
 }
 
-}  // namespace
+OneModeStep::OneModeStep(const StateSpace& machine, double duration)
+    : w_(machine.a(0, 1)),
+      damping_(machine.a(1, 1)),
+      b_(machine.b(1, 0)),
+      stiffening_(machine.b(1, 0) * machine.c(0, 0)),
+      duration_(duration),
+      decay_(std::exp(0.5 * damping_ * duration)),
+      decay_less_one_(std::expm1(0.5 * damping_ * duration)) {}
+
+bool OneModeStep::make(double gain, double* out) const {
+  // a - b W c = [0 w; -w - W.. d]: exp = e^(s h) (C + S (a - s)), s = d/2, its parts less the unit
+  // matrix so that short intervals lose nothing.
+  const double below = -w_ - stiffening_ * gain, s = 0.5 * damping_;
+  const double determinant = -w_ * below, square = s * s - determinant;
+  if (std::abs(determinant) < 1e-3 * w_ * w_) return false;
+  const double root = std::sqrt(std::abs(square)), half = 0.5 * root * duration_;
+  double c_less_one, sine;
+  if (square < 0.0) {
+    const double sn = std::sin(half), cs = std::cos(half);
+    c_less_one = -2.0 * sn * sn;
+    sine = 2.0 * sn * cs / root;
+  } else {
+    const double sn = std::sinh(half), cs = std::cosh(half);
+    c_less_one = 2.0 * sn * sn;
+    sine = root > 0.0 ? 2.0 * sn * cs / root : duration_;
+  }
+  const double c = 1.0 + c_less_one;
+  const double e00 = decay_less_one_ * (c - s * sine) + c_less_one - s * sine;
+  const double e11 = decay_less_one_ * (c + s * sine) + c_less_one + s * sine;
+  const double e01 = decay_ * sine * w_;
+  out[0] = 1.0 + e00;
+  out[1] = decay_ * sine * below;
+  out[2] = e01;
+  out[3] = 1.0 + e11;
+  out[4] = (damping_ * e01 - w_ * e11) * b_ / determinant;
+  out[5] = e01 * b_ / w_;
+  return true;
+}
 
 IntervalStep interval_step(const StateSpace& machine, const Eigen::Matrix2d& gain, double duration,
                            int terms) {
   const Eigen::Index n = machine.states(), m = machine.moving();
-  if (n == 2 && m == 1 && terms == 1) {
-    Eigen::Matrix2d a = machine.a;
-    a.noalias() -= machine.b * gain(0, 0) * machine.c;
-    // Near a = singular and for short intervals the inverse loses digits: the series then is short.
-    if (std::abs(a.determinant()) * duration * duration > 1e-3) {
-      return one_mode(a, machine.b, duration);
+  if (OneModeStep::serves(machine, terms)) {
+    std::array<double, 6> e;
+    if (OneModeStep(machine, duration).make(gain(0, 0), e.data())) {
+      IntervalStep step;
+      step.exponential = Eigen::Map<const Eigen::Matrix2d>(e.data());
+      step.drive[0] = Eigen::Map<const Eigen::Vector2d>(e.data() + 4);
+      return step;
     }
   }
   // The force and its derivatives over t/h are states too: g_k' = g_(k+1) / h.

@@ -25,4 +25,18 @@ struct IntervalStep {
 IntervalStep interval_step(const StateSpace& machine, const Eigen::Matrix2d& gain, double duration,
                            int terms);
 
+/// The same of one mode under a constant force, in closed form, for many gains in a row.
+class OneModeStep {
+ public:
+  static bool serves(const StateSpace& machine, int terms);
+  OneModeStep(const StateSpace& machine, double duration);
+
+  /// @param out  exponential column by column, then drive; shape (6)
+  /// @return false where the gain all but cancels the stiffness: the closed form then loses digits
+  bool make(double gain, double* out) const;
+
+ private:
+  double w_, damping_, b_, stiffening_, duration_, decay_, decay_less_one_;
+};
+
 }  // namespace millstudy::dynamics

@@ -131,6 +131,30 @@ Eigen::Matrix2d RegenerativeCut::swept(int flute, double tip_angle, double z1, d
   return sum;
 }
 
+std::vector<Eigen::Matrix2d> RegenerativeCut::swept(int flute, double first_angle, double step,
+                                                    int count, double z1, double z2) const {
+  std::vector<Eigen::Matrix2d> all(count, Eigen::Matrix2d::Zero());
+  const double tangent = edges_->flutes()[flute].helix_tangent;
+  for (const force::EdgePiece& piece : edges_->pieces()) {
+    const double from = std::max(z1, piece.bottom), to = std::min(z2, piece.top);
+    if (from >= to) continue;
+    const cutter::Envelope& envelope = edges_->envelope();
+    const double low = tangent * envelope.lag(from), high = tangent * envelope.lag(to);
+    if (low != high || !has_closed_form(flute, piece, from, to)) {
+      for (int i = 0; i < count; ++i) {
+        all[i] += swept(flute, first_angle + i * step, from, to);
+      }
+      continue;
+    }
+    const auto [t, r] = weights(flute, edges_->node(piece, tangent, 0.5 * (from + to), to - from));
+    swept_.for_each_once(first_angle - low, step, count,
+                         [&, t = t, r = r](int i, const Eigen::Vector3d& terms) {
+                           all[i] += directional(t, r, terms);
+                         });
+  }
+  return all;
+}
+
 Eigen::Matrix2d RegenerativeCut::mean_stiffness() const {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   const double depth = edges_->axial_depth();

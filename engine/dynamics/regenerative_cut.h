@@ -38,6 +38,10 @@ class RegenerativeCut {
   /// angle to this one [N rad/mm]; differences over an interval give exact averages.
   Eigen::Matrix2d swept(int flute, double tip_angle, double z1, double z2) const;
 
+  /// (D7) at so many equally spaced angles; shape (count).
+  std::vector<Eigen::Matrix2d> swept(int flute, double first_angle, double step, int count,
+                                     double z1, double z2) const;
+
   /// Angle from a flute to the one before it at a lag per tangent [rad]: the delay is that over the
   /// spindle speed.
   double pitch(int flute, double lag) const;

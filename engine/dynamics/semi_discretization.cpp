@@ -75,8 +75,16 @@ SemiDiscretizedMap::SemiDiscretizedMap(const DelaySystem& system,
   steps_.resize(static_cast<std::size_t>(stride_) * intervals_);
   const IntervalStep free = interval_step(system.machine, Eigen::Matrix2d::Zero(), step, terms_);
   IntervalStep cutting;
+  const bool one_mode = OneModeStep::serves(system.machine, terms_);
+  const OneModeStep closed(system.machine, step);
   for (int i = 0; i < intervals_; ++i) {
     double* out = steps_.data() + static_cast<std::size_t>(stride_) * i;
+    if (one_mode && closed.make(gains.direct[i](0, 0), out)) {
+      for (int d = 0; d < delays; ++d) {
+        out[6 + d] = gains.delayed[static_cast<std::size_t>(i) * delays + d](0, 0);
+      }
+      continue;
+    }
     const auto append = [&](const auto& matrix) {  // column by column
       for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
         for (Eigen::Index row = 0; row < matrix.rows(); ++row) *out++ = matrix(row, column);
@@ -92,6 +100,30 @@ SemiDiscretizedMap::SemiDiscretizedMap(const DelaySystem& system,
           gains.delayed[static_cast<std::size_t>(i) * delays + d].topLeftCorner(moving_, moving_));
     }
   }
+}
+
+void SemiDiscretizedMap::run_one_mode(double* u, double* state) const {
+  double q = state[0], v = state[1];
+  const double c = c_(0, 0);
+  const auto delays = static_cast<int>(first_tap_.size()) - 1;
+  const double* data = steps_.data();
+  double* now = u + history_;
+  for (int i = 0; i < intervals_; ++i, data += stride_, ++now) {
+    *now = c * q;
+    double force = 0.0;
+    for (int d = 0; d < delays; ++d) {
+      double place = 0.0;
+      for (int tap = first_tap_[d]; tap < first_tap_[d + 1]; ++tap) {
+        place += taps_[tap].weight[0] * now[-taps_[tap].back];
+      }
+      force += data[6 + d] * place;
+    }
+    const double next = data[0] * q + (data[2] * v + data[4] * force);
+    v = data[3] * v + (data[1] * q + data[5] * force);
+    q = next;
+  }
+  state[0] = q;
+  state[1] = v;
 }
 
 template <int States, int Moving, int Terms>
@@ -139,7 +171,7 @@ void SemiDiscretizedMap::run(const double* in, std::vector<double>& positions,
   std::copy(in, in + moving_ * history_, positions.begin());
   std::copy(in + moving_ * history_, in + size(), state);
   double* u = positions.data();
-  if (states_ == 2 && moving_ == 1 && terms_ == 1) return run_sized<2, 1, 1>(u, state);
+  if (states_ == 2 && moving_ == 1 && terms_ == 1) return run_one_mode(u, state);
   if (states_ == 4 && moving_ == 2 && terms_ == 1) return run_sized<4, 2, 1>(u, state);
   if (states_ == 8 && moving_ == 2 && terms_ == 1) return run_sized<8, 2, 1>(u, state);
   if (moving_ == 1) return run_sized<any, 1, any>(u, state);

@@ -42,6 +42,7 @@ class SemiDiscretizedMap {
   };
   void add_taps(double delay_in_steps, int order);
   void run(const double* in, std::vector<double>& positions, double* state) const;
+  void run_one_mode(double* u, double* state) const;
   template <int States, int Moving, int Terms>
   void run_sized(double* u, double* state) const;
 

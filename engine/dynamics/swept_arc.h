@@ -39,6 +39,38 @@ class SweptArc {
     return turns * arc_once_ + once_within(std::min(rest, width_));
   }
 
+  /// once() at phi, phi + step, ...: visit(i, terms) for 0 .. count - 1. Sines by rotation, made
+  /// anew every few steps: exact to 1e-15.
+  template <class Visit>
+  void for_each_once(double phi, double step, int count, const Visit& visit) const {
+    constexpr int kRotations = 16;
+    const double s_step = std::sin(2.0 * step), c_step = std::cos(2.0 * step);
+    double s = 0.0, c = 1.0;
+    int rotated = kRotations;
+    for (int i = 0; i < count; ++i) {
+      const auto [turns, rest] = split(phi + i * step);
+      if (rest >= width_) {
+        visit(i, Eigen::Vector3d((turns + 1.0) * arc_once_));
+        rotated = kRotations;
+        continue;
+      }
+      if (rotated == kRotations) {
+        s = std::sin(2.0 * rest);
+        c = std::cos(2.0 * rest);
+        rotated = 0;
+      } else {
+        const double next = s * c_step + c * s_step;
+        c = c * c_step - s * s_step;
+        s = next;
+        ++rotated;
+      }
+      const double c1 = 1.0 - c;
+      visit(i,
+            Eigen::Vector3d(turns * arc_once_ + Eigen::Vector3d(rest, 0.5 * (cos_ * s - sin_ * c1),
+                                                                0.5 * (sin_ * s + cos_ * c1))));
+    }
+  }
+
   Eigen::Vector3d twice(double phi) const {
     const auto [turns, rest] = split(phi);
     const Eigen::Vector3d partial =

@@ -60,7 +60,8 @@ double dense_radius(int p) {
 }
 
 double radius(int intervals) {
-  return floquet(testing::insperger_slot(kRpm, kDepth), {1e-3, intervals, 0}).spectral_radius;
+  return floquet(testing::insperger_slot(kRpm, kDepth), {1e-3, intervals, 0, false})
+      .spectral_radius;
 }
 
 Machine two_in_each() {

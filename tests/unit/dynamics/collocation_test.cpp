@@ -38,7 +38,9 @@ DelaySystem delayed_mathieu() {
 }
 
 double radius(const LinearMap& map) {
-  const DominantEigenvalue found = dominant_eigenvalue(map);
+  ArnoldiSettings settings;
+  settings.tolerance = 1e-13;
+  const DominantEigenvalue found = dominant_eigenvalue(map, settings);
   EXPECT_TRUE(found.converged) << found.residual;
   return std::abs(found.value);
 }
