@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "io/response_file.h"
 #include "io/sha256.h"
 #include "io/toml_reader.h"
 
@@ -107,6 +108,11 @@ void refuse_swept(const study::Study& study, const core::Value& change, const st
   }
 }
 
+/// A file that a study names: TOML, or a measured frequency response.
+core::Value read_named(const std::string& path) {
+  return io::is_response_file(path) ? io::read_response_file(path) : io::read_toml(path);
+}
+
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -125,7 +131,7 @@ OpenStudy open_study(const StudyOptions& options) {
     changes.push_back(change);
     merge(root, std::move(change));
   }
-  OpenStudy open{study::resolve(root, io::read_toml), read_text(options.file), ""};
+  OpenStudy open{study::resolve(root, read_named), read_text(options.file), ""};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     refuse_swept(open.study, changes[i], "", options.overrides[i]);
   }
@@ -136,6 +142,9 @@ OpenStudy open_study(const StudyOptions& options) {
 void print_warnings(const study::Study& study) {
   for (const core::Fault& warning : study.warnings) {
     fmt::print(stderr, "warning: {}\n", to_string(warning));
+  }
+  for (const core::Fault& note : study.notes) {
+    fmt::print(stderr, "note: {}\n", to_string(note));
   }
 }
 

@@ -19,7 +19,7 @@ struct OpenStudy {
 /// @throws core::InputError with every fault
 OpenStudy open_study(const StudyOptions& options);
 
-/// Tells stderr what the study does at the user's own risk.
+/// Tells stderr what the study does at the user's own risk, and what was made of its files.
 void print_warnings(const study::Study& study);
 
 }  // namespace millstudy::cli

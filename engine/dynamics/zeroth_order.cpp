@@ -38,52 +38,16 @@ std::array<Complex, 2> in_order(std::array<Complex, 2> values, const std::array<
 
 }  // namespace
 
-Eigen::Matrix2cd MeasuredResponse::at(double frequency) const {
-  if (frequency < omega.front() || frequency > omega.back()) return Eigen::Matrix2cd::Zero();
-  const auto above = std::upper_bound(omega.begin(), omega.end() - 1, frequency);
-  const auto i = std::max<std::ptrdiff_t>(0, above - omega.begin() - 1);
-  const double share = (frequency - omega[i]) / (omega[i + 1] - omega[i]);
-  return (1.0 - share) * response[i] + share * response[i + 1];
-}
-
-void check(const MeasuredResponse& measured) {
-  if (measured.omega.size() != measured.response.size() || measured.omega.size() < 2) {
-    throw core::InputError(
-        fmt::format("a frequency response must have as many values as frequencies, and two at "
-                    "least, not {} and {}",
-                    measured.response.size(), measured.omega.size()));
-  }
-  std::vector<double> gaps;
-  for (std::size_t i = 0; i < measured.omega.size(); ++i) {
-    const double hertz = measured.omega[i] / (2.0 * core::kPi);
-    if (!(std::isfinite(hertz) && hertz >= 0.0 && measured.response[i].allFinite())) {
-      throw core::InputError(fmt::format(
-          "the frequency response at {} Hz must be finite, at a frequency >= 0", hertz));
-    }
-    if (i == 0) continue;
-    if (!(measured.omega[i] > measured.omega[i - 1])) {
-      throw core::InputError(
-          fmt::format("the frequencies of a response must ascend: {} Hz is not above the one "
-                      "before",
-                      hertz));
-    }
-    gaps.push_back(measured.omega[i] - measured.omega[i - 1]);
-  }
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const double before = i > 0 ? gaps[i - 1] : 0.0;
-    const double after = i + 1 < gaps.size() ? gaps[i + 1] : 0.0;
-    const double beside = std::max(before, after);
-    if (gaps.size() > 1 && gaps[i] > 10.0 * beside) {
-      throw core::InputError(fmt::format("the frequency response has a gap above {} Hz",
-                                         measured.omega[i] / (2.0 * core::kPi)));
-    }
-  }
-}
-
-FrequencyDomain frequency_domain(const Machine& machine) {
-  check(machine);
+FrequencyDomain frequency_domain(const Machine& machine, const MeasuredAxes& measured) {
+  const bool any_mode = !machine.x.empty() || !machine.y.empty() || !machine.coupled.empty();
+  if (any_mode || (!measured.x && !measured.y)) check(machine);
   FrequencyDomain domain;
-  domain.response = [machine](double omega) { return frequency_response(machine, omega); };
+  domain.response = [machine, measured](double omega) {
+    Eigen::Matrix2cd response = frequency_response(machine, omega);
+    if (measured.x) response(0, 0) += measured.x->at(omega);
+    if (measured.y) response(1, 1) += measured.y->at(omega);
+    return response;
+  };
   double highest = 0.0;
   const auto add = [&](const Mode& mode) {
     const double w = mode.natural_frequency;
@@ -98,15 +62,17 @@ FrequencyDomain frequency_domain(const Machine& machine) {
   for (const AxisMode& m : machine.x) add(m.mode);
   for (const AxisMode& m : machine.y) add(m.mode);
   for (const ResidueMode& m : machine.coupled) add(m.mode);
+  for (const auto& axis : {measured.x, measured.y}) {
+    if (!axis) continue;
+    check(*axis);
+    highest = std::max(highest, axis->omega.back());
+    domain.omega.insert(domain.omega.end(), axis->omega.begin(), axis->omega.end());
+  }
   // Stiff cuts chatter well above the modes.
+  if (!any_mode) highest = 0.0;  // nothing is known beyond what was measured
   for (double omega = highest; omega < 20.0 * highest; omega *= 1.02) domain.omega.push_back(omega);
   std::sort(domain.omega.begin(), domain.omega.end());
   return domain;
-}
-
-FrequencyDomain frequency_domain(const MeasuredResponse& measured) {
-  check(measured);
-  return {[measured](double omega) { return measured.at(omega); }, measured.omega};
 }
 
 ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matrix2d& mean_stiffness,

@@ -6,30 +6,20 @@
 #include <vector>
 
 #include "dynamics/machine.h"
+#include "dynamics/measured_response.h"
 #include "dynamics/regenerative_cut.h"
 
 namespace millstudy::dynamics {
-
-/// A frequency response as measured: displacement of the tool over force, x and y [mm/N].
-struct MeasuredResponse {
-  std::vector<double> omega;               ///< [rad/s], ascending, > 0
-  std::vector<Eigen::Matrix2cd> response;  ///< of the same length
-
-  /// Linear between the measured frequencies; zero beyond them, which makes the cut blind there.
-  Eigen::Matrix2cd at(double frequency) const;
-};
-
-/// Throws core::InputError for lengths that differ, fewer than two frequencies, ones that do not
-/// ascend, a gap more than ten times as wide as those beside it, and numbers that are not finite.
-void check(const MeasuredResponse& measured);
 
 /// What the frequency method needs to know of a machine.
 struct FrequencyDomain {
   std::function<Eigen::Matrix2cd(double omega)> response;  ///< [mm/N]
   std::vector<double> omega;  ///< ascending, close enough for the response to be followed [rad/s]
 };
-FrequencyDomain frequency_domain(const Machine& machine);
-FrequencyDomain frequency_domain(const MeasuredResponse& measured);
+
+/// Of modes, of measured responses, or of both in series: tool measured, workpiece by its modes.
+/// Throws core::InputError for what check() finds in either, and where there is neither.
+FrequencyDomain frequency_domain(const Machine& machine, const MeasuredAxes& measured = {});
 
 /// Where the loop closes at a real gain.
 struct ZerothOrder {

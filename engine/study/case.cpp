@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -114,7 +116,12 @@ double material_removal_rate(const Case& point) {
          cutter::section_area(cutter::Envelope(point.cutter), point.cut.axial_depth);
 }
 
-dynamics::Machine machine(const Case& point) {
+namespace {
+
+/// Modes that leave more of a response than this do not stand for it.
+constexpr double kMostUnexplained = 0.2;
+
+dynamics::Machine listed_modes(const Case& point) {
   constexpr double kTurn = 2.0 * core::kPi;
   dynamics::Machine machine;
   const auto mode_of = [](const auto& given) {
@@ -135,6 +142,35 @@ dynamics::Machine machine(const Case& point) {
     machine.coupled.push_back({mode_of(mode), residue});
   }
   return machine;
+}
+
+}  // namespace
+
+dynamics::Machine machine(const Case& point) {
+  dynamics::Machine machine = listed_modes(point);
+  const auto add = [](std::string_view axis, const ResponsePtr& response,
+                      std::vector<dynamics::AxisMode>& modes) {
+    if (!response) return;
+    const identify::ModeFit& fit = response->fit;
+    if (fit.unexplained > kMostUnexplained) {
+      throw core::CaseError(fmt::format(
+          "{} modes fitted to modes.response_{}_file leave {:.0f} % of it: it is too noisy, or no "
+          "response at one point; method zeroth_order takes it as it is",
+          fit.modes.size(), axis, 100.0 * fit.unexplained));
+    }
+    modes.insert(modes.end(), fit.modes.begin(), fit.modes.end());
+  };
+  add("x", point.modes.response_x, machine.x);
+  add("y", point.modes.response_y, machine.y);
+  return machine;
+}
+
+dynamics::FrequencyDomain frequency_domain(const Case& point) {
+  const auto measured = [](const ResponsePtr& response) {
+    return response ? response->measured : nullptr;
+  };
+  return dynamics::frequency_domain(
+      listed_modes(point), {measured(point.modes.response_x), measured(point.modes.response_y)});
 }
 
 }  // namespace millstudy::study

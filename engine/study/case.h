@@ -7,6 +7,7 @@
 
 #include "cutter/cutter.h"
 #include "dynamics/machine.h"
+#include "dynamics/zeroth_order.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
 #include "force/variation.h"
@@ -93,6 +94,8 @@ struct ModesSection {
   std::array<AxisModeSection, kMost> x;
   std::array<AxisModeSection, kMost> y;
   std::array<CoupledModeSection, kMostCoupled> coupled;
+  ResponsePtr response_x;  ///< measured at the tool, null: none
+  ResponsePtr response_y;
 };
 
 enum class StabilityMethod { semi_discretization, zeroth_order, time_domain };
@@ -141,8 +144,11 @@ struct Case {
 force::Coefficients scaled_coefficients(const Case& point);
 /// How these vary along the edge and with the chip.
 force::Variation variation(const Case& point);
-/// The modes of tool and workpiece.
+/// The modes of tool and workpiece: those that are listed, and those fitted to measured responses.
+/// @throws core::CaseError where these do not stand for the response
 dynamics::Machine machine(const Case& point);
+/// The same with measured responses as they are.
+dynamics::FrequencyDomain frequency_domain(const Case& point);
 /// Feed rate [mm/s], from feed per tooth where that is given; NaN where neither is.
 double feed_rate(const Case& point);
 /// Feed per tooth [mm], from feed rate where that is given; NaN where neither is.

@@ -81,9 +81,9 @@ struct PartsOfTurn {
 /// the order of the key's choices.
 using Field =
     std::variant<double*, std::optional<double>*, int*, std::vector<double>*, NumberOrNumbers,
-                 PartsOfTurn, CurvePtr*, ProfilePtr*, path::Method*, cutter::Shape*, cutter::Lead*,
-                 cutter::EdgeMeasure*, force::Rule*, std::optional<Milling>*, process::Stock*,
-                 CoefficientModel*, StabilityMethod*, FinishMethod*, FinishWall*>;
+                 PartsOfTurn, CurvePtr*, ProfilePtr*, ResponsePtr*, path::Method*, cutter::Shape*,
+                 cutter::Lead*, cutter::EdgeMeasure*, force::Rule*, std::optional<Milling>*,
+                 process::Stock*, CoefficientModel*, StabilityMethod*, FinishMethod*, FinishWall*>;
 
 /// One key of a study: the only place that says what it is called, what it may be and what it
 /// sets. Validation, the key reference, sweep axes and the case of a point all come from here.

@@ -65,6 +65,9 @@ void put(const Key&, const Setting& setting, CurvePtr* field) {
 void put(const Key&, const Setting& setting, ProfilePtr* field) {
   *field = std::get<ProfilePtr>(setting);
 }
+void put(const Key&, const Setting& setting, ResponsePtr* field) {
+  *field = std::get<ResponsePtr>(setting);
+}
 
 /// Any enumeration.
 template <class Choice>
@@ -133,6 +136,7 @@ std::string to_string(const Setting& setting) {
     }
     return text;
   }
+  if (const auto* response = std::get_if<ResponsePtr>(&setting)) return (*response)->canonical;
   return "not given";
 }
 

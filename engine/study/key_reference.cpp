@@ -27,7 +27,7 @@ std::string values(const Key& key) {
     case KeyType::text:
       return "text";
     case KeyType::file:
-      return "path of a TOML file";
+      return "path of a file";
     case KeyType::integer:
       return "whole number " + key.range.words();
     case KeyType::number:

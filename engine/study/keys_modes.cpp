@@ -3,6 +3,8 @@
 #include <deque>
 #include <fmt/format.h>
 
+#include "core/error.h"
+#include "core/units.h"
 #include "cutter/flutes.h"
 #include "study/key_table.h"
 #include "study/kind.h"
@@ -55,6 +57,10 @@ std::vector<Key> make_keys() {
   std::vector<Key> keys = {
       {"modes.modes_file", kFile, "", {}, Optional{},
        "modes: [[x]], [[y]] and [[coupled]] from a TOML file, where they are not given here"},
+      {"modes.response_x_file", kFile, "", {}, Optional{},
+       "frequency response along x: measured, as .frf, CSV, HDF5 or TOML; its modes besides those given here", MILLSTUDY_SETS(modes.response_x)},
+      {"modes.response_y_file", kFile, "", {}, Optional{},
+       "frequency response along y: as along x", MILLSTUDY_SETS(modes.response_y)},
   };
   for (int i = 0; i < static_cast<int>(ModesSection::kMost); ++i) {
     add_axis(keys, "x", "natural frequency: of tool or workpiece along x, in a list [[modes.x]] of at most 8", &ModesSection::x, i);
@@ -108,7 +114,8 @@ std::span<const Key> modes_keys() {
 }
 
 void check_modes_keys(const Given& given, Faults& faults) {
-  bool any = given.has("modes.modes_file");
+  bool any = given.has("modes.modes_file") || given.has("modes.response_x_file") ||
+             given.has("modes.response_y_file");
   for (std::size_t i = 0; i < ModesSection::kMost; ++i) {
     for (const std::string_view axis : {"x", "y"}) {
       any |= check_mode(given, fmt::format("modes.{}.{}", axis, i), false, faults);
@@ -120,7 +127,38 @@ void check_modes_keys(const Given& given, Faults& faults) {
   if (any) return;
   faults.add(given.file,
              "modes are missing: give [[modes.x]], [[modes.y]] or both, each with frequency_Hz, "
-             "damping_ratio and mass_kg or stiffness_N_per_m; or modes_file");
+             "damping_ratio and mass_kg or stiffness_N_per_m; or modes_file, response_x_file, "
+             "response_y_file");
+}
+
+void check_modes(const Given& given, const Case& base, Faults& faults) {
+  const std::initializer_list<std::string_view> keys = {"modes.response_x_file",
+                                                        "modes.response_y_file"};
+  if (given.any_swept(keys)) return;
+  try {
+    machine(base);
+  } catch (const core::CaseError& error) {
+    faults.add(given.place(keys), error.what());
+  }
+}
+
+std::vector<core::Fault> fitted_modes(const Given& given, const Case& base) {
+  std::vector<core::Fault> notes;
+  const auto tell = [&](std::string_view key, const ResponsePtr& response) {
+    if (!response || given.swept(key)) return;
+    std::vector<std::string> modes;
+    for (const dynamics::AxisMode& m : response->fit.modes) {
+      modes.push_back(fmt::format("{:.1f} Hz, {:.2f} %, {:.4g} N/m",
+                                  m.mode.natural_frequency / (2.0 * core::kPi),
+                                  100.0 * m.mode.damping_ratio, 1e3 * m.stiffness));
+    }
+    notes.push_back({given.place({key}),
+                     fmt::format("modes fitted to {}: {}; they leave {:.2g} % of it", key,
+                                 fmt::join(modes, "; "), 100.0 * response->fit.unexplained)});
+  };
+  tell("modes.response_x_file", base.modes.response_x);
+  tell("modes.response_y_file", base.modes.response_y);
+  return notes;
 }
 
 void check_linear_keys(const Given& given, const Case& base, std::string_view method,

@@ -62,6 +62,8 @@ struct Kind {
   void (*check_keys)(const Given&, const Case& base, Faults&) = nullptr;
   /// Rules between values; those that involve a swept key are left to the points.
   void (*check)(const Given&, const Case& base, Faults&) = nullptr;
+  /// What the user should hear of before a run; may be null.
+  std::vector<core::Fault> (*notes)(const Given&, const Case& base) = nullptr;
   /// A fresh evaluator for one run; what points share is kept in it.
   EvaluatePoint (*make_evaluator)(const Outputs&) = nullptr;
 
@@ -94,6 +96,10 @@ void check_cut(const Given& given, const Case& base, Faults& faults);
 void check_engagement_keys(const Given& given, const Case& base, Faults& faults);
 /// Rules of [[modes.x]], [[modes.y]] and [[modes.coupled]].
 void check_modes_keys(const Given& given, Faults& faults);
+/// Modes that are fitted to measured responses must stand for them.
+void check_modes(const Given& given, const Case& base, Faults& faults);
+/// The modes that were fitted to measured responses, one note for each response.
+std::vector<core::Fault> fitted_modes(const Given& given, const Case& base);
 /// What makes a cut nonlinear is for a simulation only.
 /// @param method  the key that chooses
 void check_linear_keys(const Given& given, const Case& base, std::string_view method,

@@ -168,6 +168,7 @@ void check_values(const Given& given, const Case& base, Faults& faults) {
   check_cutter(given, base, faults);
   check_coefficients(given, base, faults);
   check_cut(given, base, faults);
+  check_modes(given, base, faults);
   const auto look = [&](std::initializer_list<std::string_view> keys, const auto& rule) {
     if (given.any_swept(keys)) return;
     try {
@@ -200,6 +201,7 @@ const Kind& finish_kind() {
       .has_traces = false,
       .check_keys = check_keys,
       .check = check_values,
+      .notes = fitted_modes,
       .make_evaluator = [](const Outputs&) { return EvaluatePoint(evaluate); },
   };
   return kind;

@@ -86,7 +86,9 @@ double largest_depth(const Case& point) {
   return asked.value_or(std::min(usual, longest));
 }
 
+/// The modes; the zeroth order takes measured responses as they are.
 dynamics::Machine checked_machine(const Case& point) {
+  if (point.stability.method == StabilityMethod::zeroth_order) return {};
   dynamics::Machine all = machine(point);
   dynamics::check(all);
   return all;
@@ -156,8 +158,8 @@ class StabilityCase {
                                ? engagement_.axial_depth
                                : std::max(largest_depth(point_), engagement_.axial_depth);
     const dynamics::ZerothOrderLimit limit =
-        dynamics::zeroth_order_limit(dynamics::frequency_domain(machine_), point_.cutter,
-                                     engagement_.arc(), coefficients_, speed_, deepest, variation_);
+        dynamics::zeroth_order_limit(frequency_domain(point_), point_.cutter, engagement_.arc(),
+                                     coefficients_, speed_, deepest, variation_);
     Found found;
     found.limit = limit.axial_depth_limit;
     found.depths = {{0.0, found.limit}};
@@ -270,6 +272,10 @@ void check_values(const Given& given, const Case& base, Faults& faults) {
   check_cutter(given, base, faults);
   check_coefficients(given, base, faults);
   check_cut(given, base, faults);
+  if (may_be(given, StabilityMethod::semi_discretization) ||
+      may_be(given, StabilityMethod::time_domain)) {
+    check_modes(given, base, faults);
+  }
   if (given.has("stability.largest_depth_mm") && !given.section_swept("cutter")) {
     try {
       largest_depth(base);
@@ -293,6 +299,7 @@ const Kind& stability_kind() {
       .has_traces = false,
       .check_keys = check_keys,
       .check = check_values,
+      .notes = fitted_modes,
       .make_evaluator = make_evaluator,
   };
   return kind;

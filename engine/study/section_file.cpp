@@ -9,6 +9,7 @@
 #include "study/curve_file.h"
 #include "study/file_text.h"
 #include "study/profile_file.h"
+#include "study/response_file.h"
 #include "study/suggest.h"
 
 namespace millstudy::study {
@@ -52,6 +53,7 @@ std::vector<std::string_view> names_in_file(std::string_view section, const Kind
 Setting read_object(const Key& key, const core::Value& content) {
   Case target;
   if (std::holds_alternative<ProfilePtr*>(key.field(target))) return read_profile(content);
+  if (std::holds_alternative<ResponsePtr*>(key.field(target))) return read_response(content);
   return read_curve(content);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cutter/cutter.h"
+#include "identify/mode_fit.h"
 #include "path/curve.h"
 
 namespace millstudy::study {
@@ -21,8 +22,16 @@ using CurvePtr = std::shared_ptr<const StudyCurve>;
 
 using ProfilePtr = std::shared_ptr<const cutter::Profile>;
 
+/// A frequency response as a study holds it.
+struct StudyResponse {
+  std::shared_ptr<const dynamics::MeasuredResponse> measured;
+  identify::ModeFit fit;  ///< for methods that need modes
+  std::string canonical;  ///< every number of it, for the study hash
+};
+using ResponsePtr = std::shared_ptr<const StudyResponse>;
+
 /// The checked value of one key, in the unit of the key; monostate where a point does not give it.
 using Setting = std::variant<std::monostate, double, bool, std::string, std::vector<double>,
-                             CurvePtr, ProfilePtr>;
+                             CurvePtr, ProfilePtr, ResponsePtr>;
 
 }  // namespace millstudy::study

@@ -58,6 +58,7 @@ struct Study {
   std::string canonical;
   /// What it does at the user's own risk; the program tells, and goes on.
   std::vector<core::Fault> warnings;
+  std::vector<core::Fault> notes;  ///< what was made of it that the user should hear of
 };
 
 /// Reads a file that a study names; throws core::InputError.

@@ -328,6 +328,17 @@ def altintas_two_mode(program, folder, check):
                 f"{np.abs(frequency[0, 0, found] / frequency[1, 0, found] - 1).max():.1e}")
 
 
+def measured_response(program, folder, check):
+    slot = run(program, "altintas_two_mode", folder,
+               "sweep.axes.\"cut.radial_depth_mm\"=[16.0]")["axial_depth_limit"][0, 0]
+    fitted, direct = run(program, "measured_response", folder)["axial_depth_limit"]
+    for name, limit, most, rms in (("fitted modes", fitted, "0.0055", "0.0025"),
+                                   ("the response itself", direct, "0.0883", "0.0208")):
+        off = limit / slot - 1
+        check.number(f"{name}: limits off those of the true modes by up to", "own run", most, np.abs(off).max(), 0.001)
+        check.number(f"{name}: root mean square", "own run", rms, np.sqrt((off**2).mean()), 0.001)
+
+
 def variable_pitch_lobes(program, folder, check):
     result = run(program, "variable_pitch_lobes", folder)
     limit, speed = result["axial_depth_limit"], result["spindle_speed_rpm"]

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
+#include "core/error.h"
 #include "dynamics/depth_limit.h"
 #include "unit/dynamics/insperger.h"
 
@@ -48,6 +49,48 @@ TEST(ZerothOrder, IsExactInASlotWithAnEvenNumberOfTeethFrom4Up) {
       }
     }
   }
+}
+
+std::shared_ptr<const MeasuredResponse> sampled(const Machine& machine, int axis, double step) {
+  MeasuredResponse response;
+  for (double hertz = 1.0; hertz < 6000.0; hertz += step) {
+    const double omega = 2.0 * core::kPi * hertz;
+    response.omega.push_back(omega);
+    response.compliance.push_back(frequency_response(machine, omega)(axis, axis));
+  }
+  return std::make_shared<const MeasuredResponse>(response);
+}
+
+TEST(ZerothOrder, TakesMeasuredResponsesAsTheyAre) {
+  const Machine machine = two_in_each();
+  const cutter::Cutter cutter{cutter::Shape::flat, 16.0, 4, core::rad_from_deg(30.0)};
+  const MeasuredAxes measured = {sampled(machine, 0, 1.0), sampled(machine, 1, 1.0)};
+  // Of both in series: y by its modes, x measured.
+  Machine y_alone;
+  y_alone.y = machine.y;
+  double worst = 0.0;
+  for (double rpm = 2000.0; rpm < 16000.0; rpm += 500.0) {
+    const auto limit = [&](const FrequencyDomain& domain) {
+      return zeroth_order_limit(domain, cutter, force::Arc{}, testing::kInsperger,
+                                testing::spindle(rpm), 50.0)
+          .axial_depth_limit;
+    };
+    const double modes = limit(frequency_domain(machine));
+    worst =
+        std::max({worst, std::abs(limit(frequency_domain({}, measured)) / modes - 1.0),
+                  std::abs(limit(frequency_domain(y_alone, {measured.x, nullptr})) / modes - 1.0)});
+  }
+  std::cout << "off by " << worst << "\n";
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_THROW(frequency_domain({}, {}), core::InputError);
+}
+
+TEST(MeasuredResponse, IsContinuousBeyondItsEnds) {
+  const auto response = sampled(two_in_each(), 0, 10.0);
+  const double last = response->omega.back();
+  EXPECT_EQ(response->at(0.0), response->compliance.front());
+  EXPECT_NEAR(std::abs(response->at(last * (1.0 - 1e-12)) - response->at(last)), 0.0, 1e-15);
+  EXPECT_NEAR(std::abs(response->at(2.0 * last) / response->at(last)), 0.25, 1e-12);
 }
 
 }  // namespace
