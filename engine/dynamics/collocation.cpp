@@ -18,6 +18,8 @@ namespace {
 struct FreeElement {
   Eigen::MatrixXd nodes_of_state;  // m N x n
   Eigen::MatrixXd nodes_of_force;  // m N x m N
+  Eigen::MatrixXd speed_of_state;  // m N x n: velocities at the nodes
+  Eigen::MatrixXd speed_of_force;  // m N x m N
   Eigen::MatrixXd end_of_state;    // n x n
   Eigen::MatrixXd end_of_force;    // n x m N
 };
@@ -27,6 +29,8 @@ FreeElement free_element(const StateSpace& machine, const GaussCollocation& gaus
   FreeElement free;
   free.nodes_of_state = Eigen::MatrixXd::Zero(m * count, n);
   free.nodes_of_force = Eigen::MatrixXd::Zero(m * count, m * count);
+  free.speed_of_state = Eigen::MatrixXd::Zero(m * count, n);
+  free.speed_of_force = Eigen::MatrixXd::Zero(m * count, m * count);
   free.end_of_state = Eigen::MatrixXd::Zero(n, n);
   free.end_of_force = Eigen::MatrixXd::Zero(n, m * count);
   // Modes do not see one another: each is a system of 2 N unknowns.
@@ -48,6 +52,9 @@ FreeElement free_element(const StateSpace& machine, const GaussCollocation& gaus
       const Eigen::MatrixXd u = machine.c.block(0, q, m, 2) * x.middleRows<2>(2 * i);
       free.nodes_of_state.block(m * i, q, m, 2) += u.leftCols<2>();
       free.nodes_of_force.middleRows(m * i, m) += u.rightCols(m * count);
+      const Eigen::MatrixXd speed = a(0, 1) * machine.c.block(0, q, m, 1) * x.row(2 * i + 1);
+      free.speed_of_state.block(m * i, q, m, 2) += speed.leftCols<2>();
+      free.speed_of_force.middleRows(m * i, m) += speed.rightCols(m * count);
       const double weight = h * gauss.weights[i];
       const Eigen::MatrixXd slope = weight * (a * x.middleRows<2>(2 * i));
       free.end_of_state.block<2, 2>(q, q) += slope.leftCols<2>();
@@ -95,23 +102,31 @@ void CollocationMap::add_stretch(const DelaySystem& system, double start, double
   const int parts = 1 + static_cast<int>((end - start) / longest * (1.0 - 1e-9));
   const double h = (end - start) / parts;
   const FreeElement free = free_element(system.machine, gauss, h);
-  Eigen::MatrixXd gains(mn, mn);
+  Eigen::MatrixXd gains(mn, mn), damping(mn, mn);
   for (int part = 0; part < parts; ++part) {
     Element element{start + part * h, h, {}, Eigen::MatrixXd(mn + n, n + mn)};
     gains.setZero();
+    damping.setZero();
     for (int i = 0; i < nodes_; ++i) {
-      gains.block(m * i, m * i, m, m) =
-          system.at(element.start + gauss.nodes[i] * h).direct.topLeftCorner(m, m);
+      const Gains now = system.at(element.start + gauss.nodes[i] * h);
+      gains.block(m * i, m * i, m, m) = now.direct.topLeftCorner(m, m);
+      damping.block(m * i, m * i, m, m) = now.damping.topLeftCorner(m, m);
     }
-    // The force at the nodes is f - W u, u of itself: (1 + W U) force = f - W (u of the state).
+    // The force at the nodes is f - W u - B u', u and u' of itself: (1 + W U + B V) force = f - W
+    // (u of the state) - B (u' of the state).
+    const bool damped = !damping.isZero(0.0);
     Eigen::MatrixXd& step = element.step;
-    if (gains.isZero(0.0)) {
+    if (gains.isZero(0.0) && !damped) {
       step << free.nodes_of_state, free.nodes_of_force, free.end_of_state, free.end_of_force;
     } else {
       Eigen::MatrixXd whole = gains * free.nodes_of_force;
       whole.diagonal().array() += 1.0;
       Eigen::MatrixXd right(mn, n + mn);
       right << -gains * free.nodes_of_state, Eigen::MatrixXd::Identity(mn, mn);
+      if (damped) {
+        whole += damping * free.speed_of_force;
+        right.leftCols(n) -= damping * free.speed_of_state;
+      }
       const Eigen::MatrixXd force = whole.partialPivLu().solve(right);
       step.topRows(mn).noalias() = free.nodes_of_force * force;
       step.topLeftCorner(mn, n) += free.nodes_of_state;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include "core/error.h"
 #include "dynamics/regenerative_cut.h"
@@ -38,6 +39,7 @@ struct Source {
   RegenerativeCut cut;
   double speed;           // [rad/s]
   std::vector<int> axes;  // of the machine
+  std::optional<RegenerativeCut> damping;
 
   double period() const { return cut.period_angle() / speed; }
   double tip_angle(int flute, double t) const {
@@ -78,6 +80,7 @@ Gains gains_at(const Source& source, double t) {
   std::vector<double> delays;
   for (int j = 0; j < source.flutes(); ++j) {
     const double tip = source.tip_angle(j, t);
+    if (source.damping) gains.damping += source.moving(source.damping->stiffness(j, tip));
     const auto add = [&](double delay, const Eigen::Matrix2d& a) {
       gains.direct += a;
       const int k = delay_index(delays, delay);
@@ -118,6 +121,16 @@ AveragedGains averages(const Source& source, int intervals) {
       all.delayed[i * count + slice.delay] += a;
     }
   }
+  if (!source.damping) return all;
+  all.damping.assign(intervals, Eigen::Matrix2d::Zero());
+  for (int j = 0; j < source.flutes(); ++j) {
+    const std::vector<Eigen::Matrix2d> swept =
+        source.damping->swept(j, source.tip_angle(j, 0.0), source.speed * step, intervals + 1, 0.0,
+                              source.cut.edges().axial_depth());
+    for (int i = 0; i < intervals; ++i) {
+      all.damping[i] += per_angle * source.moving(swept[i + 1] - swept[i]);
+    }
+  }
   return all;
 }
 
@@ -148,15 +161,25 @@ std::vector<double> breaks(const Source& source) {
 
 }  // namespace
 
-DelaySystem delay_system(const Machine& machine, const RegenerativeCut& cut, double spindle_speed) {
+DelaySystem delay_system(const Machine& machine, const RegenerativeCut& cut, double spindle_speed,
+                         double process_damping) {
   if (!(spindle_speed > 0.0 && std::isfinite(spindle_speed))) {
     throw core::InputError(
         fmt::format("spindle speed = {} rad/s must be > 0 and finite", spindle_speed));
   }
+  if (!(process_damping >= 0.0 && std::isfinite(process_damping))) {
+    throw core::InputError(
+        fmt::format("process damping = {} N/mm must be >= 0 and finite", process_damping));
+  }
   DelaySystem system;
   system.machine = state_space(machine);
+  std::optional<RegenerativeCut> damping;
+  if (process_damping > 0.0) {
+    const double cutting_speed = spindle_speed * cutter::radius(cut.edges().cutter());
+    damping = cut.process_damping(process_damping / cutting_speed);
+  }
   const auto source =
-      std::make_shared<const Source>(Source{cut, spindle_speed, system.machine.axes});
+      std::make_shared<const Source>(Source{cut, spindle_speed, system.machine.axes, damping});
   system.period = source->period();
   const double lag = cut.edges().envelope().lag(cut.edges().axial_depth());
   std::vector<double> delays;

@@ -76,14 +76,17 @@ bool OneModeStep::make(double gain, double* out) const {
 }
 
 IntervalStep interval_step(const StateSpace& machine, const Eigen::Matrix2d& gain, double duration,
-                           int terms) {
+                           int terms, const Eigen::Matrix2d& damping) {
   const Eigen::Index n = machine.states(), m = machine.moving();
-  if (OneModeStep::serves(machine, terms)) {
+  const bool damped = !damping.isZero(0.0);
+  if (!damped && OneModeStep::serves(machine, terms)) {
     std::array<double, 6> e;
     if (OneModeStep(machine, duration).make(gain(0, 0), e.data())) {
       IntervalStep step;
-      step.exponential = Eigen::Map<const Eigen::Matrix2d>(e.data());
-      step.drive[0] = Eigen::Map<const Eigen::Vector2d>(e.data() + 4);
+      step.exponential.resize(2, 2);
+      step.exponential << e[0], e[2], e[1], e[3];
+      step.drive[0].resize(2, 1);
+      step.drive[0] << e[4], e[5];
       return step;
     }
   }
@@ -91,6 +94,10 @@ IntervalStep interval_step(const StateSpace& machine, const Eigen::Matrix2d& gai
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + terms * m, n + terms * m);
   whole.topLeftCorner(n, n) =
       duration * (machine.a - machine.b * gain.topLeftCorner(m, m) * machine.c);
+  if (damped) {
+    whole.topLeftCorner(n, n) -=
+        duration * (machine.b * damping.topLeftCorner(m, m) * machine.velocity());
+  }
   whole.block(0, n, n, m) = duration * machine.b;
   for (int k = 0; k + 1 < terms; ++k) {
     whole.block(n + k * m, n + (k + 1) * m, m, m).setIdentity();

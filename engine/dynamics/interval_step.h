@@ -15,15 +15,16 @@ struct IntervalStep {
   std::array<Eigen::MatrixXd, 3> drive;  ///< each n x m, as many as terms
 };
 
-/// (D10) for d/dt s = (a - b W c) s + b f.
+/// (D10) for d/dt s = (a - b W c) s - b B u' + b f, u' the velocity.
 ///
 /// Closed form for one mode and a constant force; else the Taylor series with scaling and squaring.
 /// Measured against quadruple precision: 4e-15.
 /// @param gain      W [N/mm], of which moving x moving count
 /// @param duration  h [s], > 0
 /// @param terms     1 .. 3
+/// @param damping   B [N s/mm]
 IntervalStep interval_step(const StateSpace& machine, const Eigen::Matrix2d& gain, double duration,
-                           int terms);
+                           int terms, const Eigen::Matrix2d& damping = Eigen::Matrix2d::Zero());
 
 /// The same of one mode under a constant force, in closed form, for many gains in a row.
 class OneModeStep {

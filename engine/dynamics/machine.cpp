@@ -84,6 +84,12 @@ Eigen::Matrix2cd frequency_response(const Machine& machine, double omega) {
   return response;
 }
 
+Eigen::MatrixXd StateSpace::velocity() const {
+  Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.rows(), c.cols());
+  for (Eigen::Index q = 0; q < c.cols(); q += 2) v.col(q + 1) = a(q, q + 1) * c.col(q);
+  return v;
+}
+
 StateSpace state_space(const Machine& machine) {
   check(machine);
   const std::vector<Oscillator> all = oscillators(machine);

@@ -50,6 +50,8 @@ struct StateSpace {
 
   int states() const { return static_cast<int>(a.rows()); }
   int moving() const { return static_cast<int>(c.rows()); }
+  /// m x n: of the velocity d/dt u [mm/s].
+  Eigen::MatrixXd velocity() const;
 };
 
 /// The state space of a machine; residues of rank one take two states, others four.

@@ -31,6 +31,18 @@ RegenerativeCut::RegenerativeCut(const cutter::Cutter& cutter, const force::Enga
   edges_ = std::make_shared<const force::CuttingEdges>(cutter, engagement.axial_depth, variation);
 }
 
+RegenerativeCut RegenerativeCut::process_damping(double coefficient) const {
+  // A radial force per radial velocity: what a radial coefficient alone does with positions.
+  RegenerativeCut damping = *this;
+  damping.coefficients_ = {};
+  damping.coefficients_.Krc = coefficient;
+  if (edges_->variation().with_height()) {
+    damping.edges_ = std::make_shared<const force::CuttingEdges>(
+        edges_->cutter(), edges_->axial_depth(), force::Variation{});
+  }
+  return damping;
+}
+
 double RegenerativeCut::period_angle() const {
   return edges_->equal_flutes() ? 2.0 * core::kPi / edges_->cutter().flutes : 2.0 * core::kPi;
 }

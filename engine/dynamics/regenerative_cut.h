@@ -46,6 +46,10 @@ class RegenerativeCut {
   /// spindle speed.
   double pitch(int flute, double lag) const;
 
+  /// (D26): its process damping, whose matrices stand in the place of A [N s/mm].
+  /// @param coefficient  C over the cutting speed [N s/mm2]
+  RegenerativeCut process_damping(double coefficient) const;
+
   /// A averaged over a turn [N/mm], all flutes: that of the zeroth-order solution (D20).
   Eigen::Matrix2d mean_stiffness() const;
 
@@ -92,7 +96,9 @@ class RegenerativeCut {
 /// Variable helix, whose delays vary along the edge: at() has a delay for each node of the edge,
 /// averages() cuts the edge into slices of which each has the delay of its middle, the finer the
 /// more intervals.
-/// @param spindle_speed  [rad/s], > 0; throws core::InputError otherwise
-DelaySystem delay_system(const Machine& machine, const RegenerativeCut& cut, double spindle_speed);
+/// @param spindle_speed    [rad/s], > 0; throws core::InputError otherwise
+/// @param process_damping  C of (D26) [N/mm], >= 0
+DelaySystem delay_system(const Machine& machine, const RegenerativeCut& cut, double spindle_speed,
+                         double process_damping = 0.0);
 
 }  // namespace millstudy::dynamics

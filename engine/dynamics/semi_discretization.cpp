@@ -75,7 +75,8 @@ SemiDiscretizedMap::SemiDiscretizedMap(const DelaySystem& system,
   steps_.resize(static_cast<std::size_t>(stride_) * intervals_);
   const IntervalStep free = interval_step(system.machine, Eigen::Matrix2d::Zero(), step, terms_);
   IntervalStep cutting;
-  const bool one_mode = OneModeStep::serves(system.machine, terms_);
+  const bool damped = !gains.damping.empty();
+  const bool one_mode = !damped && OneModeStep::serves(system.machine, terms_);
   const OneModeStep closed(system.machine, step);
   for (int i = 0; i < intervals_; ++i) {
     double* out = steps_.data() + static_cast<std::size_t>(stride_) * i;
@@ -90,8 +91,11 @@ SemiDiscretizedMap::SemiDiscretizedMap(const DelaySystem& system,
         for (Eigen::Index row = 0; row < matrix.rows(); ++row) *out++ = matrix(row, column);
       }
     };
-    const bool is_free = gains.direct[i].isZero(0.0);
-    if (!is_free) cutting = interval_step(system.machine, gains.direct[i], step, terms_);
+    const bool is_free = gains.direct[i].isZero(0.0) && (!damped || gains.damping[i].isZero(0.0));
+    if (!is_free) {
+      const Eigen::Matrix2d damping = damped ? gains.damping[i] : Eigen::Matrix2d::Zero();
+      cutting = interval_step(system.machine, gains.direct[i], step, terms_, damping);
+    }
     const IntervalStep& now = is_free ? free : cutting;
     append(now.exponential);
     for (int k = 0; k < terms_; ++k) append(now.drive[k]);

@@ -26,6 +26,10 @@ void check(const TimeDomain& settings, double spindle_speed) {
     throw core::InputError(
         fmt::format("feed per tooth = {} mm must be >= 0", settings.feed_per_tooth));
   }
+  if (!(settings.process_damping >= 0.0 && std::isfinite(settings.process_damping))) {
+    throw core::InputError(
+        fmt::format("process damping = {} N/mm must be >= 0 and finite", settings.process_damping));
+  }
   if (settings.steps_per_cycle < 10 || settings.revolutions < 10 || settings.discs < 0) {
     throw core::InputError(
         fmt::format("steps per cycle = {} and revolutions = {} must be >= 10, discs = {} >= 0",
@@ -45,6 +49,8 @@ class Simulation {
         k_{coefficients.Ktc, coefficients.Krc, coefficients.Kac,
            coefficients.Kte, coefficients.Kre, coefficients.Kae},
         leaves_(settings.tool_leaves_cut),
+        damping_(settings.process_damping / (spindle_speed * cutter::radius(edges.cutter()))),
+        velocity_(space_.velocity()),
         feed_per_angle_(settings.feed_per_tooth * edges.cutter().flutes / kTurn) {
     const double cycles = fastest(coefficients, edges) / spindle_speed;  // of vibration in a turn
     // A multiple of the samples; 360 steps a turn at least, for the arc.
@@ -58,12 +64,7 @@ class Simulation {
 
   int steps() const { return steps_; }
 
-  Eigen::Vector2d place() const {
-    const Eigen::VectorXd u = space_.c * state_;
-    Eigen::Vector2d all = Eigen::Vector2d::Zero();
-    for (int i = 0; i < space_.moving(); ++i) all[space_.axes[i]] = u[i];
-    return all;
-  }
+  Eigen::Vector2d place() const { return in_plane(space_.c); }
 
   void disturb(double size) {
     for (Eigen::Index i = 0; i < state_.size(); ++i) state_[i] += size * (i % 2 ? -0.7 : 1.0);
@@ -76,13 +77,17 @@ class Simulation {
     Eigen::VectorXd next;
     // The force at the middle of the step depends on its end: two corrections leave 1e-4 of that.
     Eigen::Vector2d middle = count_ > 0 ? Eigen::Vector2d(1.5 * now - 0.5 * at(count_ - 1)) : now;
+    const Eigen::Vector2d speed_now =
+        damping_ > 0.0 ? in_plane(velocity_) : Eigen::Vector2d::Zero();
+    Eigen::Vector2d speed = speed_now;
     for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::Vector2d f = force(middle, regenerates);
+      const Eigen::Vector2d f = force(middle, speed, regenerates);
       Eigen::VectorXd moving(space_.moving());
       for (int i = 0; i < space_.moving(); ++i) moving[i] = f[space_.axes[i]];
       next = step_.exponential * state_ + step_.drive[0] * moving;
       std::swap(next, state_);
       middle = 0.5 * (now + place());
+      if (damping_ > 0.0) speed = 0.5 * (speed_now + in_plane(velocity_));
       std::swap(next, state_);
     }
     state_ = next;
@@ -91,15 +96,25 @@ class Simulation {
   }
 
  private:
-  /// [rad/s], of the modes stiffened by the cut.
+  /// What a row of the state space per moving axis makes of the state, along x and y.
+  Eigen::Vector2d in_plane(const Eigen::MatrixXd& rows) const {
+    const Eigen::VectorXd moving = rows * state_;
+    Eigen::Vector2d all = Eigen::Vector2d::Zero();
+    for (int i = 0; i < space_.moving(); ++i) all[space_.axes[i]] = moving[i];
+    return all;
+  }
+
+  /// [rad/s], of the modes stiffened and damped by the cut.
   double fastest(const force::Coefficients& k, const force::CuttingEdges& edges) const {
     const double stiffness = (std::abs(k.Ktc) + std::abs(k.Krc) + std::abs(k.Kac)) *
                              edges.axial_depth() * std::max(1.0, 0.5 * edges.cutter().flutes);
+    const double damping = damping_ * edges.axial_depth() * edges.cutter().flutes;
     double largest = 0.0;
     for (Eigen::Index q = 0; q < space_.a.rows(); q += 2) {
       const double w = space_.a(q, q + 1);
       const double added = stiffness * w * space_.b.row(q + 1).cwiseAbs().maxCoeff();
-      largest = std::max(largest, std::sqrt(w * w + added));
+      const double decay = damping * w * space_.b.row(q + 1).cwiseAbs().maxCoeff();
+      largest = std::max({largest, std::sqrt(w * w + added), decay});
     }
     return largest;
   }
@@ -119,8 +134,10 @@ class Simulation {
     return (1.0 - share) * at(step) + share * at(step + 1);
   }
 
-  /// (D24): force on the tool at the middle of the step, for a position there.
-  Eigen::Vector2d force(const Eigen::Vector2d& now, bool regenerates) {
+  /// (D24), (D26): force on the tool at the middle of the step, for a position and a velocity
+  /// there.
+  Eigen::Vector2d force(const Eigen::Vector2d& now, const Eigen::Vector2d& speed,
+                        bool regenerates) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     const double from = angle_step_ * static_cast<double>(count_ % steps_);
     const double width = arc_.exit_angle - arc_.entry_angle;
@@ -154,8 +171,10 @@ class Simulation {
         along[q] = share * (k_[q] * disc.factors[q] * size * chip * disc.width +
                             k_[q + 3] * disc.factors[q + 3] * disc.length);
       }
-      const double in_plane = along[1] * disc.sin_kappa + along[2] * disc.cos_kappa;
-      sum += Eigen::Vector2d(-along[0] * c - in_plane * s, along[0] * s - in_plane * c);
+      const double outward = disc.sin_kappa * (speed[0] * s + speed[1] * c);
+      along[1] += share * damping_ * disc.width * outward;
+      const double radial = along[1] * disc.sin_kappa + along[2] * disc.cos_kappa;
+      sum += Eigen::Vector2d(-along[0] * c - radial * s, along[0] * s - radial * c);
     }
     return sum;
   }
@@ -166,6 +185,8 @@ class Simulation {
   force::Arc arc_;
   std::array<double, 6> k_;
   bool leaves_;
+  double damping_;  // [N s/mm2]
+  Eigen::MatrixXd velocity_;
   double feed_per_angle_;
   int steps_ = 0;
   double angle_step_ = 0.0;

@@ -17,7 +17,8 @@ struct TimeDomain {
   int steps_per_cycle = 60;      ///< of the fastest mode, >= 10
   int discs = 0;          ///< of each piece of the edge; 0: so many that one lags by 5 deg at most
   int revolutions = 400;  ///< looked at before a verdict by what there is then, >= 10
-  double decades = 3.0;   ///< of growth or decay for an early verdict
+  double process_damping = 0.0;  ///< C of (D26) [N/mm], >= 0
+  double decades = 3.0;          ///< of growth or decay for an early verdict
 };
 
 /// What a simulated cut does.

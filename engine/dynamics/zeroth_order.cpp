@@ -16,12 +16,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// (D21): eigenvalues of -(1 - exp(-i omega tau)) A G: the loop is closed at the gain 1/value of
-/// one that is real and positive.
+/// (D21): eigenvalues of -((1 - exp(-i omega tau)) A + i omega B) G: the loop is closed at the gain
+/// 1/value of one that is real and positive.
 std::array<Complex, 2> loop_values(const FrequencyDomain& machine, const Eigen::Matrix2d& mean,
-                                   double delay, double omega) {
+                                   const Eigen::Matrix2d& damping, double delay, double omega) {
   const Complex regeneration = 1.0 - std::polar(1.0, -omega * delay);
-  const Eigen::Matrix2cd loop = -regeneration * (mean * machine.response(omega));
+  const Eigen::Matrix2cd gain = regeneration * mean + Complex(0.0, omega) * damping;
+  const Eigen::Matrix2cd loop = -gain * machine.response(omega);
   const Complex half = 0.5 * (loop(0, 0) + loop(1, 1));
   const Complex determinant = loop(0, 0) * loop(1, 1) - loop(0, 1) * loop(1, 0);
   const Complex root = std::sqrt(half * half - determinant);
@@ -76,12 +77,12 @@ FrequencyDomain frequency_domain(const Machine& machine, const MeasuredAxes& mea
 }
 
 ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matrix2d& mean_stiffness,
-                              double delay) {
+                              double delay, const Eigen::Matrix2d& mean_damping) {
   if (!(delay > 0.0 && std::isfinite(delay))) {
     throw core::InputError(fmt::format("delay = {} s must be > 0 and finite", delay));
   }
   const auto values = [&](double omega) {
-    return loop_values(machine, mean_stiffness, delay, omega);
+    return loop_values(machine, mean_stiffness, mean_damping, delay, omega);
   };
   const double longest = 2.0 * core::kPi / delay / 32.0;
   double largest = 0.0, at = 0.0;
@@ -121,7 +122,7 @@ ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matri
 ZerothOrderLimit zeroth_order_limit(const FrequencyDomain& machine, const cutter::Cutter& cutter,
                                     const force::Arc& arc, const force::Coefficients& coefficients,
                                     double spindle_speed, double largest_depth,
-                                    const force::Variation& variation) {
+                                    const force::Variation& variation, double process_damping) {
   if (!(spindle_speed > 0.0 && std::isfinite(spindle_speed))) {
     throw core::InputError(
         fmt::format("spindle speed = {} rad/s must be > 0 and finite", spindle_speed));
@@ -133,7 +134,9 @@ ZerothOrderLimit zeroth_order_limit(const FrequencyDomain& machine, const cutter
   const auto at = [&](double depth) {
     const RegenerativeCut cut(cutter, {arc.entry_angle, arc.exit_angle, depth}, coefficients,
                               variation);
-    return zeroth_order_gain(machine, cut.mean_stiffness(), cut.period_angle() / spindle_speed);
+    const double per_speed = process_damping / (spindle_speed * cutter::radius(cutter));
+    return zeroth_order_gain(machine, cut.mean_stiffness(), cut.period_angle() / spindle_speed,
+                             cut.process_damping(per_speed).mean_stiffness());
   };
   const bool linear = cutter.shape == cutter::Shape::flat && !variation.with_height();
   ZerothOrder found = at(largest_depth);

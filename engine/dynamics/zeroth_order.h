@@ -35,8 +35,10 @@ struct ZerothOrder {
 /// equal teeth; there its limits and those of collocation differ by less than 1e-6 (measured).
 /// @param mean_stiffness  [N/mm] at some depth; rows and columns x, y
 /// @param delay           [s], > 0
+/// @param mean_damping    [N s/mm] at the same depth
 ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matrix2d& mean_stiffness,
-                              double delay);
+                              double delay,
+                              const Eigen::Matrix2d& mean_damping = Eigen::Matrix2d::Zero());
 
 struct ZerothOrderLimit {
   double axial_depth_limit = 0.0;  ///< [mm]; largest_depth where it is stable up to there
@@ -47,9 +49,11 @@ struct ZerothOrderLimit {
 ///
 /// The mean matrix is linear in depth on cylinders, where one gain is enough; elsewhere the depth
 /// at which the gain is one is found by bisection, to 1e-6 of it.
+/// @param process_damping  C of (D26) [N/mm], >= 0
 ZerothOrderLimit zeroth_order_limit(const FrequencyDomain& machine, const cutter::Cutter& cutter,
                                     const force::Arc& arc, const force::Coefficients& coefficients,
                                     double spindle_speed, double largest_depth,
-                                    const force::Variation& variation = {});
+                                    const force::Variation& variation = {},
+                                    double process_damping = 0.0);
 
 }  // namespace millstudy::dynamics

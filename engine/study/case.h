@@ -44,6 +44,7 @@ struct CoefficientLaw {
   CoefficientModel model = CoefficientModel::constant;
   double cutting_scale = 1.0;                      ///< wear: times the chip coefficients
   double edge_scale = 1.0;                         ///< wear: times the edge coefficients
+  double process_damping = 0.0;                    ///< C [N/mm], of a tool that vibrates
   std::array<double, 3> size_exponent{};           ///< of Ktc, Krc, Kac
   std::optional<double> reference_chip_thickness;  ///< [mm], with an exponent
   force::HeightFactors height;                     ///< all empty: the same at every height

@@ -52,6 +52,8 @@ std::span<const Key> coefficient_keys() {
        "wear factor of the chip: times Ktc, Krc and Kac", MILLSTUDY_SETS(law.cutting_scale)},
       {"coefficients.edge_scale", kNumber, "", {0.0, 1000.0}, 1.0,
        "wear factor of the edge: times Kte, Kre and Kae", MILLSTUDY_SETS(law.edge_scale)},
+      {"coefficients.process_damping_N_per_mm", kNumber, "N/mm", {0.0, 1e6}, 0.0,
+       "process damping: force of the flank on a vibrating edge, times width and radial over cutting speed; for stability and finish", MILLSTUDY_SETS(law.process_damping)},
       {"coefficients.Ktc_exponent", kNumber, "", kExponent, 0.0,
        "tangential size exponent: m of K (h / reference)^-m", MILLSTUDY_SETS(law.size_exponent[0]), {}, constant()},
       {"coefficients.Krc_exponent", kNumber, "", kExponent, 0.0,

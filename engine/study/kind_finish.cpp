@@ -76,8 +76,8 @@ Vibration periodic(const Case& point, const dynamics::Machine& machine,
                    const force::Engagement& engaged, double speed) {
   const force::Coefficients coefficients = scaled_coefficients(point);
   const force::Variation law = variation(point);
-  const dynamics::DelaySystem system =
-      dynamics::delay_system(machine, {point.cutter, engaged, coefficients, law}, speed);
+  const dynamics::DelaySystem system = dynamics::delay_system(
+      machine, {point.cutter, engaged, coefficients, law}, speed, point.law.process_damping);
   Vibration found{false, dynamics::floquet(system, {}).spectral_radius,
                   dynamics::PeriodicMotion(system.period)};
   found.stable = found.radius < 1.0;
@@ -97,6 +97,7 @@ Vibration simulated(const Case& point, const dynamics::Machine& machine,
   dynamics::TimeDomain settings;
   settings.feed_per_tooth = feed_per_tooth(point);
   settings.revolutions = point.finish.revolutions;
+  settings.process_damping = point.law.process_damping;
   const dynamics::Simulated found =
       dynamics::simulate(machine, point.cutter, engaged, scaled_coefficients(point), speed,
                          settings, variation(point));

@@ -124,7 +124,7 @@ class StabilityCase {
 
   dynamics::DelaySystem system(double depth) const {
     return dynamics::delay_system(machine_, {point_.cutter, at(depth), coefficients_, variation_},
-                                  speed_);
+                                  speed_, point_.law.process_damping);
   }
 
   Found by_multipliers() const {
@@ -157,9 +157,9 @@ class StabilityCase {
     const double deepest = depth_is_axis_
                                ? engagement_.axial_depth
                                : std::max(largest_depth(point_), engagement_.axial_depth);
-    const dynamics::ZerothOrderLimit limit =
-        dynamics::zeroth_order_limit(frequency_domain(point_), point_.cutter, engagement_.arc(),
-                                     coefficients_, speed_, deepest, variation_);
+    const dynamics::ZerothOrderLimit limit = dynamics::zeroth_order_limit(
+        frequency_domain(point_), point_.cutter, engagement_.arc(), coefficients_, speed_, deepest,
+        variation_, point_.law.process_damping);
     Found found;
     found.limit = limit.axial_depth_limit;
     found.depths = {{0.0, found.limit}};
@@ -174,6 +174,7 @@ class StabilityCase {
     dynamics::TimeDomain settings;
     settings.feed_per_tooth = feed_per_tooth(point_);
     settings.revolutions = point_.stability.revolutions;
+    settings.process_damping = point_.law.process_damping;
     return dynamics::simulate(machine_, point_.cutter, at(depth), coefficients_, speed_, settings,
                               variation_);
   }

@@ -339,6 +339,22 @@ def measured_response(program, folder, check):
         check.number(f"{name}: root mean square", "own run", rms, np.sqrt((off**2).mean()), 0.001)
 
 
+def process_damping(program, folder, check):
+    result = run(program, "process_damping", folder)
+    limit, speed = result["axial_depth_limit"], result["spindle_speed_rpm"]
+    for rpm, printed in ((300, ("2.23", "14.5", "40.0")), (900, ("2.23", "5.07", "19.3")), (6000, ("2.34", "2.50", "3.45"))):
+        for c, figure in enumerate(printed):
+            check.number(f"C = {result['process_damping_N_per_mm'][c]:g} N/mm, {rpm} rpm [mm]", "own run", figure,
+                         limit[c, np.argmin(np.abs(speed - rpm))], 0.06)
+    check.holds("damping never makes it shallower", (np.diff(limit, axis=0) >= -1e-3 * limit[1:]).all(),
+                f"least step {np.diff(limit, axis=0).min():.3g} mm")
+    zeroth = run(program, "process_damping", folder, "cut.radial_depth_mm=19.0",
+                 "stability.method=zeroth_order")["axial_depth_limit"]
+    slot = run(program, "process_damping", folder, "cut.radial_depth_mm=19.0")["axial_depth_limit"]
+    check.holds("in a slot with four teeth the zeroth order is exact with damping too",
+                (np.abs(zeroth / slot - 1) < 1e-3).all(), f"{np.abs(zeroth / slot - 1).max():.1e}")
+
+
 def variable_pitch_lobes(program, folder, check):
     result = run(program, "variable_pitch_lobes", folder)
     limit, speed = result["axial_depth_limit"], result["spindle_speed_rpm"]

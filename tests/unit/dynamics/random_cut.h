@@ -14,12 +14,13 @@ struct RandomCut {
   cutter::Cutter cutter;
   force::Arc arc;
   force::Coefficients coefficients;
-  double spindle_speed;  // [rad/s]
-  double largest_depth;  // [mm]
+  double spindle_speed;          // [rad/s]
+  double largest_depth;          // [mm]
+  double process_damping = 0.0;  // [N/mm]
 
   DelaySystem at(double depth) const {
-    return delay_system(
-        machine, {cutter, {arc.entry_angle, arc.exit_angle, depth}, coefficients}, spindle_speed);
+    return delay_system(machine, {cutter, {arc.entry_angle, arc.exit_angle, depth}, coefficients},
+                        spindle_speed, process_damping);
   }
 };
 
