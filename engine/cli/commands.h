@@ -26,6 +26,11 @@ struct RunSettings {
   bool fresh = false;
   bool quiet = false;
   std::int64_t block_size = 0;
+  bool failed = false;  ///< compute failed points again
+  int shard = 0;        ///< which of so many parts of the study, from 1; 0: all of it
+  int shards = 0;
+  std::int64_t max_failures = -1;  ///< end early beyond so many; -1: never
+  double disk_patience = 600.0;    ///< how long to wait for room on the disk [s]
 };
 
 struct FitOptions {
@@ -47,6 +52,8 @@ struct ExportOptions {
 int plan(const StudyOptions& options);
 int run(const StudyOptions& options, const RunSettings& settings);
 int fit(const FitOptions& options);
+int status(const std::string& result, bool json);
+int merge(const std::string& output, const std::vector<std::string>& parts);
 int export_result(const ExportOptions& options);
 int print_keys(const std::string& kind, bool markdown);
 

@@ -7,7 +7,7 @@
 #include "cli/process_setup.h"
 #include "cli/version.h"
 #include "core/error.h"
-#include "io/resource_error.h"
+#include "core/resource_error.h"
 
 namespace {
 
@@ -27,12 +27,13 @@ int guarded(const std::function<int()>& command) {
       std::fprintf(stderr, "and %zu more\n", error.faults().size() - kMostLines);
     }
     return cli::kBadInput;
-  } catch (const io::ResourceError& error) {
+  } catch (const core::ResourceError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return cli::kInterrupted;
   } catch (const std::bad_alloc&) {
     std::fprintf(
-        stderr, "out of memory, nothing was kept: use fewer threads, or fewer samples per point\n");
+        stderr,
+        "out of memory: use fewer threads, or fewer samples per point; finished points are kept\n");
     return cli::kInterrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "internal error: %s\n", error.what());
@@ -66,6 +67,20 @@ void add_study_options(CLI::App& verb, cli::StudyOptions& study) {
       ->check(CLI::Range(1, 1024));
 }
 
+/// "2/10": part 2 of 10.
+void parse_shard(const std::string& text, cli::RunSettings& settings) {
+  if (text.empty()) return;
+  char slash = 0, rest = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%d%c%d%c", &settings.shard, &slash, &settings.shards, &rest);
+  constexpr int kMost = 1'000'000;
+  if (read == 3 && slash == '/' && settings.shard >= 1 && settings.shard <= settings.shards &&
+      settings.shards <= kMost) {
+    return;
+  }
+  throw core::InputError({"--shard " + text, 0}, "must be k/K with k from 1 to K: 2/10");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -82,13 +97,21 @@ int main(int argc, char** argv) {
   plan->add_flag("--json", study.json, "print JSON");
 
   cli::RunSettings settings;
+  std::string shard;
   CLI::App* run = app.add_subcommand("run", "compute a study into a result file");
   add_study_options(*run, study);
   run->add_option("-o,--output", settings.output, "result file (default: <study.name>.h5 here)")
       ->type_name("R.h5");
   run->add_flag("--fresh", settings.fresh, "compute again; an existing result is moved aside");
+  run->add_flag("--failed", settings.failed, "compute failed points again")->excludes("--fresh");
+  run->add_option("--shard", shard, "compute part k of K only, for merge")->type_name("k/K");
   run->add_option("--block-size", settings.block_size, "points per block (default: chosen)")
       ->check(CLI::Range(1, 1'000'000));
+  run->add_option("--max-failures", settings.max_failures, "end early beyond so many failed points")
+      ->check(CLI::NonNegativeNumber);
+  run->add_option("--disk-wait", settings.disk_patience,
+                  "seconds to wait for room on a full disk (default: 600)")
+      ->check(CLI::Range(0.0, 1e6));
   run->add_flag("--quiet", settings.quiet, "no progress");
   run->add_flag("--json", study.json, "print the summary as JSON");
 
@@ -104,6 +127,17 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   fit->add_flag("--quiet", fitting.quiet, "no progress");
   fit->add_flag("--json", fitting.json, "print the result as JSON");
+
+  std::string watched;
+  CLI::App* status = app.add_subcommand("status", "how far a run is, while it runs or after");
+  status->add_option("result", watched, "result file")->required()->type_name("R.h5");
+  status->add_flag("--json", study.json, "print JSON");
+
+  std::string merged;
+  std::vector<std::string> parts;
+  CLI::App* merge = app.add_subcommand("merge", "one result from those of --shard");
+  merge->add_option("output", merged, "result file")->required()->type_name("OUT.h5");
+  merge->add_option("parts", parts, "results of the parts")->required()->type_name("SHARD.h5");
 
   cli::ExportOptions table;
   CLI::App* exporting = app.add_subcommand("export", "write a result as a table");
@@ -124,13 +158,16 @@ int main(int argc, char** argv) {
 
   app.failure_message(usage_fault);
   if (argc < 2) {
-    std::fputs("millstudy: give one of plan, run, fit, export, keys; see millstudy --help\n",
-               stderr);
+    std::fputs(
+        "millstudy: give one of plan, run, status, merge, fit, export, keys; see millstudy "
+        "--help\n",
+        stderr);
     return cli::kBadInput;
   }
   if (const auto word = unknown_verb(app, argc, argv)) {
     std::fprintf(stderr,
-                 "millstudy: %s is not one of plan, run, fit, export, keys; see millstudy --help\n",
+                 "millstudy: %s is not one of plan, run, status, merge, fit, export, keys; see "
+                 "millstudy --help\n",
                  word->c_str());
     return cli::kBadInput;
   }
@@ -144,8 +181,13 @@ int main(int argc, char** argv) {
   cli::report_full_disk_as_error();
   const int code = guarded([&] {
     if (*plan) return cli::plan(study);
-    if (*run) return cli::run(study, settings);
+    if (*run) {
+      parse_shard(shard, settings);
+      return cli::run(study, settings);
+    }
     if (*fit) return cli::fit(fitting);
+    if (*status) return cli::status(watched, study.json);
+    if (*merge) return cli::merge(merged, parts);
     if (*exporting) return cli::export_result(table);
     return cli::print_keys(kind, markdown);
   });

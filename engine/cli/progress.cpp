@@ -50,7 +50,7 @@ void ProgressDisplay::show(const sweep::Progress& progress) {
   if (quiet_ || progress.seconds < next_) return;
   next_ = progress.seconds + (terminal_ ? kRedraw : kNextLine);
   const double part = static_cast<double>(progress.done()) / static_cast<double>(progress.points);
-  const double rate = static_cast<double>(progress.done()) / progress.seconds;
+  const double rate = static_cast<double>(progress.done() - progress.before) / progress.seconds;
   const double left = static_cast<double>(progress.points - progress.done()) / rate;
   const std::string failed =
       progress.failed > 0 ? fmt::format(", {} failed", count_text(progress.failed)) : "";

@@ -22,6 +22,10 @@ std::string host_name() {
 
 }  // namespace
 
+std::string this_process() {
+  return fmt::format("process {} on {}", getpid(), host_name());
+}
+
 std::vector<sweep::Attribute> provenance(int threads) {
   const Build made = build();
   return {

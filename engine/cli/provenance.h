@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sweep/layout.h"
@@ -9,5 +10,8 @@ namespace millstudy::cli {
 
 /// Attributes that say which program made a result, where and when.
 std::vector<sweep::Attribute> provenance(int threads);
+
+/// "process 123 on host"
+std::string this_process();
 
 }  // namespace millstudy::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/journal_sink.h"
 #include "cli/measure.h"
 #include "cli/open_study.h"
 #include "cli/progress.h"
@@ -14,8 +15,11 @@
 #include "cli/version.h"
 #include "core/error.h"
 #include "core/ordered_parallel.h"
+#include "io/atomic_file.h"
+#include "io/result_blocks.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
+#include "sweep/journal.h"
 
 namespace millstudy::cli {
 namespace {
@@ -25,7 +29,7 @@ namespace fs = std::filesystem;
 /// Passes blocks on and counts why points failed.
 class FailureTally : public sweep::Sink {
  public:
-  explicit FailureTally(std::unique_ptr<sweep::Sink> sink) : sink_(std::move(sink)) {}
+  explicit FailureTally(sweep::Sink& sink) : sink_(sink) {}
 
   void write(const sweep::Block& block) override {
     constexpr std::size_t kMostReasons = 1000;
@@ -34,15 +38,15 @@ class FailureTally : public sweep::Sink {
       const bool room = counts_.size() < kMostReasons || counts_.contains(reason);
       ++counts_[room ? reason : "other reasons"];
     }
-    sink_->write(block);
+    sink_.write(block);
   }
   void finish(const std::vector<sweep::Attribute>& attributes) override {
-    sink_->finish(attributes);
+    sink_.finish(attributes);
   }
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
 
  private:
-  std::unique_ptr<sweep::Sink> sink_;
+  sweep::Sink& sink_;
   std::map<std::string, std::int64_t> counts_;
 };
 
@@ -111,7 +115,8 @@ int print_outcome(const Outcome& outcome, const StudyOptions& options,
 
 /// A finished result of this study, if the file is one.
 /// @throws core::InputError if it is anything else
-std::optional<Outcome> finished_result(const std::string& path, const OpenStudy& open) {
+std::optional<Outcome> finished_result(const std::string& path, const OpenStudy& open,
+                                       const std::string& shard) {
   const std::optional<io::ResultSummary> summary = io::read_result_summary(path);
   if (!summary) return std::nullopt;
   if (summary->text("study_hash") != open.hash) {
@@ -119,6 +124,14 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
         {path, 0},
         "holds the result of another study; use --fresh to compute this one (the old "
         "result is moved aside), or -o for another file");
+  }
+  const std::string part = summary->text("shard").value_or("");
+  if (part != shard) {
+    throw core::InputError(
+        {path, 0},
+        fmt::format("holds {} of this study, not {}; use --fresh, or -o for another file",
+                    part.empty() ? "all" : "part " + part,
+                    shard.empty() ? "all" : "part " + shard));
   }
   Outcome outcome{"already done", path, 0, 0, 0, 0.0, 0, open.hash, ""};
   outcome.ok = summary->integer("points_ok").value_or(0);
@@ -141,7 +154,7 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
 }
 
 /// Makes room for a fresh result: slot.h5 becomes slot.previous-1.h5, or the next free number.
-void move_aside(const fs::path& path) {
+void move_aside(const fs::path& path, std::string_view what) {
   if (!fs::exists(path)) return;
   for (int number = 1;; ++number) {
     fs::path aside = path;
@@ -149,8 +162,116 @@ void move_aside(const fs::path& path) {
         fmt::format("{}.previous-{}{}", path.stem().string(), number, path.extension().string()));
     if (fs::exists(aside)) continue;
     fs::rename(path, aside);
-    fmt::print(stderr, "the old result is now {}\n", aside.string());
+    fmt::print(stderr, "the old {} is now {}\n", what, aside.string());
     return;
+  }
+}
+
+/// What the journal of a run must be of.
+sweep::JournalHeader journal_header(const OpenStudy& open, const sweep::Layout& layout,
+                                    const RunSettings& settings, std::int64_t block_size) {
+  sweep::JournalHeader header;
+  header.study_hash = open.hash;
+  header.isa = build().isa;
+  header.build = version_text();
+  header.study = open.text;
+  header.points = header.count = layout.points();
+  if (settings.shards > 0) {
+    // Whole blocks of a size that does not depend on how fast this machine is.
+    const std::int64_t size = sweep::default_block_size(layout);
+    const std::int64_t blocks = (header.points + size - 1) / size;
+    header.first = blocks * (settings.shard - 1) / settings.shards * size;
+    header.count =
+        std::min(header.points, blocks * settings.shard / settings.shards * size) - header.first;
+  }
+  header.block_size = block_size;
+  header.columns = static_cast<std::int64_t>(layout.columns.size());
+  header.traces = layout.traces;
+  header.keep_old = settings.fresh;
+  return header;
+}
+
+/// @throws core::InputError for a journal that this run cannot go on with
+void check_same(const std::string& path, const sweep::JournalHeader& there,
+                const sweep::JournalHeader& wanted) {
+  const auto refuse = [&](const std::string& why) { throw core::InputError({path, 0}, why); };
+  if (there.study_hash != wanted.study_hash) {
+    refuse(
+        "holds the unfinished result of another study; use --fresh to begin this one (the journal "
+        "is moved aside), or -o for another file");
+  }
+  if (there.isa != wanted.isa) {
+    refuse(
+        fmt::format("was begun with the instruction set {}, this program has {}: digits would "
+                    "differ; finish it there, or use --fresh",
+                    there.isa, wanted.isa));
+  }
+  if (there.build != wanted.build) {
+    refuse(
+        fmt::format("was begun by {}, this program is {}: finish it with that one, or use "
+                    "--fresh",
+                    there.build, wanted.build));
+  }
+  if (there.points != wanted.points || there.columns != wanted.columns ||
+      there.traces != wanted.traces || there.first != wanted.first || there.count != wanted.count) {
+    refuse("was begun for other points of the study; use --fresh, or -o for another file");
+  }
+}
+
+/// "2/10", empty for all of the study.
+std::string shard_text(const RunSettings& settings) {
+  return settings.shards > 0 ? fmt::format("{}/{}", settings.shard, settings.shards) : "";
+}
+
+/// Failed points of a block have no status any more. @return false if there are none
+bool forget_failures(sweep::Block& block) {
+  bool any = false;
+  for (std::int64_t i = 0; i < block.count; ++i) {
+    if (block.status[i] != sweep::Status::failed) continue;
+    block.status[i] = sweep::Status::not_run;
+    block.failures[i].clear();
+    any = true;
+  }
+  return any;
+}
+
+/// Makes failed points of a journal pending again; of an empty one, with those of a finished
+/// result in it.
+void reopen_failed(sweep::Journal& journal, const std::string& result) {
+  const sweep::JournalHeader& header = journal.contents().header;
+  if (journal.contents().entries.empty()) {
+    const io::ResultBlocks blocks(result);
+    for (std::int64_t i = 0; i < header.blocks(); ++i) {
+      sweep::Block block = blocks.read(header.first_of(i), header.count_of(i));
+      forget_failures(block);
+      journal.append(block, {});
+    }
+    return;
+  }
+  for (std::int64_t i = 0; i < header.blocks(); ++i) {
+    if (journal.contents().entry(i).failed == 0) continue;
+    sweep::Block block = journal.read(i);
+    if (forget_failures(block)) journal.append(block, {});
+  }
+}
+
+std::int64_t chosen_block_size(const RunSettings& settings, const sweep::Layout& layout,
+                               const sweep::EvaluateBlock& evaluate) {
+  if (settings.block_size > 0) return settings.block_size;
+  if (sweep::default_block_size(layout) <= 1) return 1;
+  const Estimate one = measure_blocks(evaluate, layout, 1, 1, 0.0);
+  return sweep::default_block_size(layout, one.seconds_per_point);
+}
+
+void tell_what_is_there(const sweep::JournalContents& contents) {
+  if (contents.damaged > 0) {
+    fmt::print(stderr,
+               "warning: {} damaged place{} in the journal: those blocks are computed again\n",
+               contents.damaged, contents.damaged == 1 ? "" : "s");
+  }
+  if (contents.done() > 0) {
+    fmt::print(stderr, "going on after {} of {} points\n", count_text(contents.done()),
+               count_text(contents.header.count));
   }
 }
 
@@ -158,50 +279,85 @@ void move_aside(const fs::path& path) {
 
 int run(const StudyOptions& options, const RunSettings& settings) {
   const OpenStudy open = open_study(options);
-  const std::string path = settings.output.empty() ? open.study.name + ".h5" : settings.output;
+  const std::string shard = shard_text(settings);
+  const std::string usual = shard.empty() ? open.study.name + ".h5"
+                                          : fmt::format("{}.shard-{}-of-{}.h5", open.study.name,
+                                                        settings.shard, settings.shards);
+  const std::string path = settings.output.empty() ? usual : settings.output;
+  const std::string journal_path = path + ".journal";
   std::error_code different;
   if (fs::equivalent(path, options.file, different)) {
     throw core::InputError({path, 0}, "is the study itself: give another result file with -o");
   }
   print_warnings(open.study);
-  if (!settings.fresh) {
-    if (const auto outcome = finished_result(path, open)) {
-      return print_outcome(*outcome, options, {});
-    }
-  }
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   sweep::Layout layout = study::layout(open.study);
   layout.attributes = origin(open, options, threads);
-  const std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
-  FailureTally sink(io::make_result_writer(path, layout));
-
+  if (!shard.empty()) layout.attributes.emplace_back("shard", shard);
+  std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
   const sweep::EvaluateBlock evaluate = study::block_evaluator(open.study, &stop);
-  std::int64_t block_size = settings.block_size;
-  if (block_size == 0 && sweep::default_block_size(layout) > 1) {
-    const Estimate one = measure_blocks(evaluate, layout, 1, 1, 0.0);
-    block_size = sweep::default_block_size(layout, one.seconds_per_point);
+
+  std::optional<sweep::JournalContents> there;
+  if (settings.fresh) {
+    if (!sweep::Journal::is_taken(journal_path)) move_aside(journal_path, "journal");
+  } else {
+    there = sweep::read_journal(journal_path);
   }
+  if (there) {
+    check_same(journal_path, there->header, journal_header(open, layout, settings, 1));
+  } else if (!settings.fresh) {
+    const auto outcome = finished_result(path, open, shard);
+    if (outcome && !(settings.failed && outcome->failed > 0)) {
+      return print_outcome(*outcome, options, {});
+    }
+    if (settings.failed && !outcome) {
+      throw core::InputError({path, 0},
+                             "there is no result whose failed points --failed could repeat");
+    }
+  }
+  { const io::AtomicFile target(path); }  // what cannot be written is refused before the work
+  const std::int64_t block_size =
+      there ? there->header.block_size : chosen_block_size(settings, layout, evaluate);
+  sweep::Journal journal(journal_path, journal_header(open, layout, settings, block_size),
+                         this_process());
+  if (settings.failed) reopen_failed(journal, path);
+  tell_what_is_there(journal.contents());
+  const double before = journal.contents().seconds;
+
   ProgressDisplay display(settings.quiet);
-  const sweep::Progress progress =
-      sweep::run_blocks(layout, evaluate, sink,
-                        {.threads = threads,
-                         .block_size = block_size,
-                         .stop = &stop,
-                         .progress = [&](const sweep::Progress& now) { display.show(now); }});
+  JournalSink sink(journal, settings.disk_patience, stop);
+  bool too_many = false;
+  const sweep::Progress progress = sweep::run_blocks(
+      evaluate, sink, sweep::remainder(journal),
+      {.threads = threads, .stop = &stop, .progress = [&](const sweep::Progress& now) {
+         display.show(now);
+         if (settings.max_failures < 0 || now.failed <= settings.max_failures) return;
+         too_many = true;
+         stop = true;
+       }});
   display.clear();
   if (progress.done() < progress.points) {
-    fmt::print(stderr, "interrupted after {} of {} points: nothing was kept\n",
+    journal.sync();
+    fmt::print(stderr, "{} after {} of {} points, which are kept: the same command goes on\n",
+               too_many ? fmt::format("stopped by {} failed points", count_text(progress.failed))
+                        : "interrupted",
                count_text(progress.done()), count_text(progress.points));
     return kInterrupted;
   }
-  if (settings.fresh) move_aside(path);
-  sink.finish({{"points_ok", progress.ok},
-               {"points_failed", progress.failed},
-               {"points_skipped", progress.skipped},
-               {"wall_time_s", progress.seconds}});
-  return print_outcome({"done", path, progress.ok, progress.failed, progress.skipped,
-                        progress.seconds, threads, open.hash, ""},
-                       options, sink.counts());
+  const std::unique_ptr<sweep::Sink> writer = io::make_result_writer(path, layout);
+  FailureTally tally(*writer);
+  sweep::replay(journal, tally);
+  if (journal.contents().header.keep_old) move_aside(path, "result");
+  const double seconds = before + progress.seconds;
+  tally.finish({{"points_ok", progress.ok},
+                {"points_failed", progress.failed},
+                {"points_skipped", progress.skipped},
+                {"points_not_run", layout.points() - progress.points},
+                {"wall_time_s", seconds}});
+  journal.remove();
+  return print_outcome({"done", path, progress.ok, progress.failed, progress.skipped, seconds,
+                        threads, open.hash, ""},
+                       options, tally.counts());
 }
 
 }  // namespace millstudy::cli

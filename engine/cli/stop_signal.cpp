@@ -16,7 +16,7 @@ extern "C" void on_signal(int) {
 
 }  // namespace
 
-const std::atomic<bool>& stop_on_signal() {
+std::atomic<bool>& stop_on_signal() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);

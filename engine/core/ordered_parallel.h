@@ -15,9 +15,12 @@ inline int available_threads() {
   return oneapi::tbb::this_task_arena::max_concurrency();
 }
 
+/// When results are consumed: in the order of the items, or as soon as they are there.
+enum class Order { of_items, of_results };
+
 /// The only parallel loop of the engine: results are computed in any order on any thread and
-/// consumed strictly in order, one at a time. So what consume sees does not depend on the number
-/// of threads.
+/// consumed one at a time, in order unless told otherwise. So what consume sees does not depend on
+/// the number of threads.
 ///
 /// At most 4 results a thread are alive at once, whatever the count: memory is bounded by what is
 /// in flight. An exception from either function ends the loop and is thrown here.
@@ -27,10 +30,12 @@ inline int available_threads() {
 /// @param stop     set from anywhere: no further item is started, those in flight are consumed
 /// @param compute  Result compute(int64 i), called concurrently
 /// @param consume  void consume(int64 i, Result&&), called for i = 0, 1, 2, ...
+/// @param order    of consume; of_results holds nothing back behind a slow item
 /// @return number of items consumed
 template <class Compute, class Consume>
 std::int64_t ordered_parallel(std::int64_t count, int threads, const std::atomic<bool>& stop,
-                              const Compute& compute, const Consume& consume) {
+                              const Compute& compute, const Consume& consume,
+                              Order order = Order::of_items) {
   namespace tbb = oneapi::tbb;
   using Result = decltype(compute(std::int64_t{}));
   using Item = std::pair<std::int64_t, Result>;
@@ -58,7 +63,10 @@ std::int64_t ordered_parallel(std::int64_t count, int threads, const std::atomic
         4 * static_cast<std::size_t>(threads),
         tbb::make_filter<void, std::int64_t>(tbb::filter_mode::serial_in_order, next) &
             tbb::make_filter<std::int64_t, Item>(tbb::filter_mode::parallel, run) &
-            tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, finish));
+            tbb::make_filter<Item, void>(order == Order::of_items
+                                             ? tbb::filter_mode::serial_in_order
+                                             : tbb::filter_mode::serial_out_of_order,
+                                         finish));
   });
   return consumed;
 }

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/resource_error.h"
+#include "core/resource_error.h"
 
 namespace millstudy::io {
 namespace {
@@ -52,7 +52,7 @@ bool still_names(const std::string& path, int fd) {
 }
 
 [[noreturn]] void out_of_resource(const std::string& path, int error) {
-  throw ResourceError(fmt::format("{}: cannot be completed: {}", path, std::strerror(error)));
+  throw core::ResourceError(fmt::format("{}: cannot be completed: {}", path, std::strerror(error)));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class AtomicFile {
   int descriptor() const { return fd_; }
 
   /// fsync, rename, fsync of the folder: after it the file survives a power cut.
-  /// @throws ResourceError
+  /// @throws core::ResourceError
   void commit();
 
  private:

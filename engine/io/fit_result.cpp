@@ -7,12 +7,12 @@
 #include <limits>
 #include <variant>
 
+#include "core/resource_error.h"
 #include "core/units.h"
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 #include "io/hdf5_output.h"
 #include "io/hdf5_text.h"
-#include "io/resource_error.h"
 
 namespace millstudy::io {
 namespace {
@@ -44,8 +44,8 @@ class Variables {
     scales_.emplace_back(name, std::move(dataset));
   }
 
-  void add(const std::string& name, const std::vector<std::string>& dimensions,
-           const Shape& shape, const std::vector<double>& values, const std::string& units,
+  void add(const std::string& name, const std::vector<std::string>& dimensions, const Shape& shape,
+           const std::vector<double>& values, const std::string& units,
            const std::string& meaning) {
     hdf5::DatasetOptions options;
     options.fill = std::numeric_limits<double>::quiet_NaN();
@@ -274,7 +274,7 @@ void write_fit_result(const std::string& path, const FitReport& report) {
     }
   }
   if (output.error != 0) {
-    throw ResourceError(
+    throw core::ResourceError(
         fmt::format("{}: cannot be written: {}", path, std::strerror(output.error)));
   }
   target.commit();

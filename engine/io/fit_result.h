@@ -26,7 +26,8 @@ struct FitReport {
 
 /// Writes a fit result (docs/fit_file.md, "The result"), complete or not at all.
 ///
-/// @throws core::InputError if the file cannot be written there; ResourceError when the disk is
+/// @throws core::InputError if the file cannot be written there; core::ResourceError when the disk
+/// is
 ///         full or fails
 void write_fit_result(const std::string& path, const FitReport& report);
 

@@ -92,6 +92,8 @@ PointColumn make_column(Handle dataset, const std::string& name) {
   PointColumn column;
   column.name = name;
   column.units = text_attribute(dataset.get(), "units");
+  column.long_name = text_attribute(dataset.get(), "long_name");
+  column.study_key = text_attribute(dataset.get(), "study_key");
   column.kind = class_of(dataset.get()) == H5T_STRING ? Kind::text : Kind::number;
   column.dataset = std::move(dataset);
   return column;
@@ -184,6 +186,16 @@ void PointTable::add_variables() {
   if (!reasons_.empty()) reasons_[0].clear();
   columns_.push_back(make_column(std::move(codes), "failure"));
   columns_.back().kind = Kind::failure;
+}
+
+Handle PointTable::other(const std::string& name) const {
+  return open(file_.get(), name);
+}
+
+std::vector<double> PointTable::numbers(const PointColumn& column, std::int64_t begin,
+                                        std::int64_t count) const {
+  return std::get<std::vector<double>>(
+      read_cells(column.dataset.get(), Kind::number, shape_, begin, count));
 }
 
 Cells PointTable::read(const PointColumn& column, std::int64_t begin, std::int64_t count) const {

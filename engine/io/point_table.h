@@ -17,6 +17,8 @@ struct PointColumn {
   enum class Kind { number, text, status, failure };
   std::string name;
   std::string units;
+  std::string long_name;
+  std::string study_key;  ///< of a coordinate: the key of the study that it gives
   Kind kind = Kind::number;
   hdf5::Handle dataset;
   /// Coordinate of a grid: all its values, and how many points each lasts; 0 if it varies by point.
@@ -32,8 +34,16 @@ class PointTable {
   explicit PointTable(const std::string& path);
 
   std::int64_t points() const { return points_; }
+  const Shape& shape() const { return shape_; }
+  const std::vector<std::string>& dimensions() const { return dimensions_; }
+  /// A variable of the file that takes no value per point, such as the samples of traces.
+  /// @throws hdf5::Error if there is none
+  hdf5::Handle other(const std::string& name) const;
   const std::vector<PointColumn>& columns() const { return columns_; }
 
+  /// Numbers as they are stored: of status and failure the codes.
+  std::vector<double> numbers(const PointColumn& column, std::int64_t begin,
+                              std::int64_t count) const;
   /// Cells of points begin .. begin + count - 1: texts for texts, status ("ok", ...) and failure
   /// (empty where none), numbers for the rest.
   Cells read(const PointColumn& column, std::int64_t begin, std::int64_t count) const;

@@ -8,10 +8,10 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/resource_error.h"
 #include "io/atomic_file.h"
 #include "io/failure_table.h"
 #include "io/hdf5_output.h"
-#include "io/resource_error.h"
 #include "io/result_variables.h"
 
 namespace millstudy::io {
@@ -91,7 +91,7 @@ class ResultWriter final : public sweep::Sink {
   }
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw ResourceError(fmt::format("{}: cannot be written: {}", target_.path(), why));
+    throw core::ResourceError(fmt::format("{}: cannot be written: {}", target_.path(), why));
   }
 
   void close() noexcept {

@@ -21,7 +21,8 @@ namespace millstudy::io {
 /// @param path    folder must exist; an existing file is replaced by finish()
 /// @param layout  copied where it is needed later
 /// @throws core::InputError if the file cannot be written there, or the layout has more than 32
-///         dimensions; write() and finish() throw ResourceError when the disk is full or fails
+///         dimensions; write() and finish() throw core::ResourceError when the disk is full or
+///         fails
 std::unique_ptr<sweep::Sink> make_result_writer(const std::string& path,
                                                 const sweep::Layout& layout);
 

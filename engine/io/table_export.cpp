@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/resource_error.h"
 #include "io/atomic_file.h"
-#include "io/resource_error.h"
 #include "io/table_format.h"
 
 namespace millstudy::io {
@@ -38,8 +38,8 @@ void export_table(const std::string& result_path, const std::string& output_path
     target.commit();
   } catch (const std::ios_base::failure&) {
     const int error = errno;  // of the write that failed: the stream's own text says nothing
-    throw ResourceError(fmt::format("{}: cannot be written: {}", output_path,
-                                    std::strerror(error != 0 ? error : EIO)));
+    throw core::ResourceError(fmt::format("{}: cannot be written: {}", output_path,
+                                          std::strerror(error != 0 ? error : EIO)));
   } catch (const hdf5::Error& error) {
     throw core::InputError({{core::Place{result_path, 0},
                              fmt::format("is no readable result file: {}", error.what())}});

@@ -13,7 +13,8 @@ namespace millstudy::io {
 /// Time histories are not exported. Memory does not grow with the points; the output appears
 /// complete or not at all.
 ///
-/// @throws core::InputError for another suffix or an input that is no result, ResourceError when
+/// @throws core::InputError for another suffix or an input that is no result, core::ResourceError
+/// when
 ///         the disk is full
 void export_table(const std::string& result_path, const std::string& output_path);
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/resource_error.h"
 #include "io/atomic_file.h"
-#include "io/resource_error.h"
 
 namespace millstudy::io {
 
@@ -17,7 +17,8 @@ void write_text_file(const std::string& path, std::string_view text) {
     const ssize_t written = ::write(file.descriptor(), text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
-      throw ResourceError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+      throw core::ResourceError(
+          fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }

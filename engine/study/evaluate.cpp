@@ -39,6 +39,7 @@ sweep::EvaluateBlock block_evaluator(const Study& study, const std::atomic<bool>
     PointCase points(*shared);
     for (std::int64_t i = 0; i < block.count; ++i) {
       if (stop && stop->load(std::memory_order_relaxed)) return;
+      if (block.status[i] != Status::not_run) continue;
       const Case& point = points.at(block.first + i);
       if (!within_limits(*shared, point)) {
         block.status[i] = Status::skipped;

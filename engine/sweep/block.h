@@ -32,12 +32,14 @@ struct Block {
   std::vector<Status> status;         ///< shape (count)
   std::vector<std::string> failures;  ///< reason of each failed point, else empty; shape (count)
   std::vector<Trace> traces;          ///< shape (count), or empty
+  double seconds = 0.0;               ///< that its computation took on its thread
 
   double& value(std::size_t column, std::int64_t i) { return values[column * count + i]; }
   double value(std::size_t column, std::int64_t i) const { return values[column * count + i]; }
 };
 
-/// Where finished blocks go, in order. A sink that is destroyed before finish() leaves nothing.
+/// Where blocks go, in order unless the run is told otherwise. A sink that is destroyed before
+/// finish() leaves nothing.
 class Sink {
  public:
   virtual ~Sink() = default;

@@ -17,6 +17,40 @@ void count_points(const Block& block, Progress& progress) {
   }
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Loop {
+  const EvaluateBlock& evaluate;
+  Sink& sink;
+  const RunOptions& options;
+  Progress progress;
+
+  template <class BlockAt>
+  Progress run(std::int64_t blocks, const BlockAt& block_at, core::Order order) {
+    const auto start = std::chrono::steady_clock::now();
+    static const std::atomic<bool> never = false;
+    const auto compute = [&](std::int64_t index) {
+      Block block = block_at(index);
+      const auto begin = std::chrono::steady_clock::now();
+      evaluate(block);
+      block.seconds = seconds_since(begin);
+      return block;
+    };
+    const auto consume = [&](std::int64_t, Block&& block) {
+      progress.seconds = seconds_since(start);
+      sink.write(block);
+      count_points(block, progress);
+      if (options.progress) options.progress(progress);
+    };
+    core::ordered_parallel(blocks, options.threads, options.stop ? *options.stop : never, compute,
+                           consume, order);
+    progress.seconds = seconds_since(start);
+    return progress;
+  }
+};
+
 }  // namespace
 
 std::int64_t default_block_size(const Layout& layout, double seconds_per_point) {
@@ -32,31 +66,27 @@ std::int64_t default_block_size(const Layout& layout, double seconds_per_point) 
 
 Progress run_blocks(const Layout& layout, const EvaluateBlock& evaluate, Sink& sink,
                     const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  static const std::atomic<bool> never = false;
-  Progress progress;
-  progress.points = layout.points();
   const std::int64_t size =
       options.block_size > 0 ? options.block_size : default_block_size(layout);
-  const std::int64_t blocks = (progress.points + size - 1) / size;
-
-  const auto compute = [&](std::int64_t index) {
+  const std::int64_t blocks = (layout.points() + size - 1) / size;
+  const auto block_at = [&](std::int64_t index) {
     const std::int64_t first = index * size;
-    Block block(first, std::min(size, progress.points - first), layout.columns.size(),
-                layout.traces);
-    evaluate(block);
-    return block;
+    return Block(first, std::min(size, layout.points() - first), layout.columns.size(),
+                 layout.traces);
   };
-  const auto consume = [&](std::int64_t, Block&& block) {
-    sink.write(block);
-    count_points(block, progress);
-    progress.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (options.progress) options.progress(progress);
-  };
-  core::ordered_parallel(blocks, options.threads, options.stop ? *options.stop : never, compute,
-                         consume);
-  return progress;
+  Progress progress;
+  progress.points = layout.points();
+  return Loop{evaluate, sink, options, progress}.run(blocks, block_at, core::Order::of_items);
+}
+
+Progress run_blocks(const EvaluateBlock& evaluate, Sink& sink, const Remainder& remainder,
+                    const RunOptions& options) {
+  Progress progress = remainder.done;
+  progress.points = remainder.points;
+  progress.before = progress.done();
+  const auto block_at = [&](std::int64_t i) { return remainder.begin(remainder.blocks[i]); };
+  return Loop{evaluate, sink, options, progress}.run(
+      static_cast<std::int64_t>(remainder.blocks.size()), block_at, core::Order::of_results);
 }
 
 }  // namespace millstudy::sweep

@@ -18,7 +18,19 @@ struct Progress {
   std::int64_t skipped = 0;
   double seconds = 0.0;  ///< since the start
 
+  std::int64_t before = 0;  ///< done in earlier sessions, and not in these seconds
+
   std::int64_t done() const { return ok + failed + skipped; }
+};
+
+/// Blocks of a study that are left to do, of all sessions together.
+struct Remainder {
+  std::int64_t first_point = 0;      ///< of block 0
+  std::int64_t points = 0;           ///< of all its blocks
+  std::vector<std::int64_t> blocks;  ///< to compute, ascending
+  Progress done;                     ///< what the others have
+  /// A block as it is so far: points that have a status keep it.
+  std::function<Block(std::int64_t block)> begin;
 };
 
 struct RunOptions {
@@ -28,7 +40,8 @@ struct RunOptions {
   std::function<void(const Progress&)> progress = {};  ///< called after every block, on one thread
 };
 
-/// Fills one block: every point gets a status, and its values or its failure. Called concurrently.
+/// Fills one block: every point that has no status yet gets one, and its values or its failure.
+/// Called concurrently.
 using EvaluateBlock = std::function<void(Block&)>;
 
 /// Points per block: small enough to share evenly among the threads and, with traces, to hold in
@@ -38,6 +51,11 @@ using EvaluateBlock = std::function<void(Block&)>;
 /// nobody
 ///                           sees progress and the last blocks end at different times
 std::int64_t default_block_size(const Layout& layout, double seconds_per_point = 0.0);
+
+/// Computes what is left of a study and hands blocks to the sink as soon as they are there, in any
+/// order; where it is stopped, those in flight with the points they have.
+Progress run_blocks(const EvaluateBlock& evaluate, Sink& sink, const Remainder& remainder,
+                    const RunOptions& options);
 
 /// Evaluates every point of the study in blocks, in parallel, and hands the blocks to the sink in
 /// order. Does not call Sink::finish: an interrupted run (progress.done() < points) is the

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Ctrl-C and SIGTERM during a run, and what a run says while it lasts."""
+import json
+import platform
 import signal
 import subprocess
 import time
@@ -27,7 +29,7 @@ class Interruption(ProgramTest):
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
         deadline = time.monotonic() + 20.0
-        while not (self.folder / "R.h5.tmp").exists():
+        while not (self.folder / "R.h5.journal").exists():
             self.assertIsNone(process.poll(), "ended before it could be interrupted")
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.01)
@@ -44,13 +46,20 @@ class Interruption(ProgramTest):
         process = self.start(text)
         time.sleep(0.5)
         lines = self.interrupt(process, number)
-        self.assertRegex(lines[-1], r"\Ainterrupted after [\d,]+ of 1,000,000 points: nothing was kept\Z")
-        self.assertEqual(sorted(self.files()), ["study.toml"])
+        self.assertRegex(lines[-1], r"\Ainterrupted after [\d,]+ of 1,000,000 points, which are kept: "
+                                    r"the same command goes on\Z")
+        self.assertEqual(sorted(self.files()), ["R.h5.journal", "study.toml"])
+        kept = int(lines[-1].split()[2].replace(",", ""))
+        status = json.loads(self.millstudy("status", "R.h5", "--json").stdout)
+        self.assertEqual((status["status"], status["points"], status["damaged"]),
+                         ("unfinished", 1_000_000, 0))
+        self.assertEqual(status["ok"], kept)
+        self.assertGreater(kept, 0)
 
-    def test_ctrl_c_keeps_nothing(self):
+    def test_ctrl_c_keeps_what_is_done(self):
         self.check(LONG, signal.SIGINT)
 
-    def test_sigterm_keeps_nothing(self):
+    def test_sigterm_keeps_what_is_done(self):
         self.check(LONG, signal.SIGTERM)
 
     def test_a_block_of_slow_points_does_not_delay_it(self):
@@ -63,12 +72,13 @@ class Interruption(ProgramTest):
         process = self.start(LONG, "--fresh")
         self.interrupt(process)
         self.assertEqual((self.folder / "R.h5").read_bytes(), old)
-        self.assertEqual(sorted(self.files()), ["R.h5", "study.toml"])
+        self.assertEqual(sorted(self.files()), ["R.h5", "R.h5.journal", "study.toml"])
 
     def test_two_runs_into_one_file(self):
         process = self.start(LONG)
         self.assertEqual(self.refused("run", "study.toml", "-o", "R.h5"),
-                         "R.h5: is being written by another process\n")
+                         f"R.h5.journal: is being written by process {process.pid} on {platform.node()}\n")
+        self.assertIn(f"running, by process {process.pid}", self.millstudy("status", "R.h5").stdout)
         self.interrupt(process)
 
     def test_progress_is_plain_lines_when_not_on_a_terminal(self):

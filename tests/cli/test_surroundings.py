@@ -25,12 +25,26 @@ class Disk(ProgramTest):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder, text=True, capture_output=True,
                               preexec_fn=limit, timeout=60)
 
-    def test_a_full_disk_leaves_nothing(self):
+    def test_a_full_disk_is_waited_for(self):
         self.write(TRACED)
-        done = self.limited("run", "study.toml", "-o", "R.h5")
+        done = self.limited("run", "study.toml", "-o", "R.h5", "--disk-wait", "1.5")
         self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertEqual(done.stderr, "R.h5: cannot be written: File too large\n")
+        self.assertEqual(done.stderr, """\
+R.h5.journal: cannot be written: File too large; waiting up to 1.5 s for room, Ctrl-C ends the run
+R.h5.journal: cannot be written: File too large; all that was written is kept, and the same command goes on with it
+""")
         self.assertEqual(sorted(self.files()), ["study.toml"])
+
+    def test_a_disk_that_is_full_at_the_end_keeps_the_points(self):
+        axes = '[sweep.axes]\n"cutter.helix_deg" = { from = 0.0, to = 60.0, count = 800 }\n'
+        self.write(SLOT + axes)
+        done = self.limited("run", "study.toml", "-o", "R.h5", "--disk-wait", "0")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr, r"\AR\.h5(\.journal)?: cannot be written: File too large[^\n]*\n\Z")
+        self.assertEqual(sorted(self.files()), ["R.h5.journal", "study.toml"])
+        again = self.millstudy("run", "study.toml", "-o", "R.h5")
+        self.assertRegex(again.stderr, r"\Agoing on after [\d,]+ of 800 points\n")
+        self.assertEqual(sorted(self.files()), ["R.h5", "study.toml"])
 
     def test_a_full_disk_during_export(self):
         self.write(SLOT + '[sweep.axes]\n"cutter.helix_deg" = { from = 0.0, to = 60.0, count = 2000 }\n')
@@ -74,8 +88,8 @@ class OutOfMemory(ProgramTest):
                               cwd=self.folder, text=True, capture_output=True, timeout=120,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertEqual(done.stderr, "out of memory, nothing was kept: use fewer threads, or fewer "
-                                      "samples per point\n")
+        self.assertEqual(done.stderr, "out of memory: use fewer threads, or fewer samples per "
+                                      "point; finished points are kept\n")
         self.assertEqual(sorted(self.files()), ["curve.toml", "study.toml"])
 
 
@@ -104,9 +118,9 @@ class Terminal(ProgramTest):
         self.assertEqual(os.waitstatus_to_exitcode(status), 4)
         text = shown.decode()
         self.assertRegex(text, r"\r\x1b\[K\[[#.]{24}\]   \d %  [\d,]+ of 1,000,000 points, [\d,]+ points/s")
-        self.assertRegex(text, r"\r\x1b\[Kinterrupted after [\d,]+ of 1,000,000 points: "
-                               r"nothing was kept\r\n\Z")
-        self.assertEqual(sorted(self.files()), ["study.toml"])
+        self.assertRegex(text, r"\r\x1b\[Kinterrupted after [\d,]+ of 1,000,000 points, "
+                               r"which are kept: the same command goes on\r\n\Z")
+        self.assertEqual(sorted(self.files()), ["R.h5.journal", "study.toml"])
 
 
 class Signals(ProgramTest):
@@ -118,7 +132,7 @@ class Signals(ProgramTest):
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, handling))
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
-        while not (self.folder / "R.h5.tmp").exists():
+        while not (self.folder / "R.h5.journal").exists():
             self.assertIsNone(process.poll())
             time.sleep(0.005)
         time.sleep(0.3)
@@ -126,9 +140,9 @@ class Signals(ProgramTest):
         process.communicate(timeout=60)
         return process.returncode
 
-    def test_a_lost_connection_leaves_nothing(self):
+    def test_a_lost_connection_keeps_what_is_done(self):
         self.assertEqual(self.run_and_hang_up(LONG, signal.SIG_DFL), 4)
-        self.assertEqual(sorted(self.files()), ["study.toml"])
+        self.assertEqual(sorted(self.files()), ["R.h5.journal", "study.toml"])
 
     def test_under_nohup_it_goes_on(self):
         shorter = LONG.replace("count = 1000", "count = 80")

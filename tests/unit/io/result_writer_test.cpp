@@ -12,9 +12,9 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/resource_error.h"
 #include "io/failure_table.h"
 #include "io/hdf5_text.h"
-#include "io/resource_error.h"
 #include "io/result_reader.h"
 #include "io/sample_results.h"
 #include "io/sha256.h"
@@ -233,7 +233,7 @@ TEST_F(ResultWriter, SaysThatTheDiskIsFull) {
     std::int64_t first = 0;
     EXPECT_THROW(
         for (; first < 1000000; first += 1000) writer->write(sample::block(layout, first, 1000)),
-        ResourceError);
+        core::ResourceError);
   }
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(files(), 0u);

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The verb merge: results of the parts of one study become the result of all of it.
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "core/error.h"
+#include "io/result_blocks.h"
+#include "io/result_writer.h"
+
+namespace millstudy::cli {
+namespace {
+
+constexpr std::int64_t kAtOnce = 1 << 14;  // points in memory
+
+std::string text_of(const sweep::Layout& layout, std::string_view name) {
+  for (const auto& [key, value] : layout.attributes) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (key == name && text) return *text;
+  }
+  return "";
+}
+
+/// @throws core::InputError if a part is not of the same study by the same program as the first
+void check_same(const io::ResultBlocks& first, const io::ResultBlocks& other) {
+  const auto refuse = [&](const std::string& why) {
+    throw core::InputError({other.path(), 0}, why);
+  };
+  const sweep::Layout &a = first.layout(), &b = other.layout();
+  if (text_of(a, "study_hash") != text_of(b, "study_hash")) {
+    refuse(fmt::format("is the result of another study than {}", first.path()));
+  }
+  for (const char* const name : {"isa", "millstudy_version", "git_revision"}) {
+    if (text_of(a, name) == text_of(b, name)) continue;
+    refuse(fmt::format("was computed with {} = {}, {} with {}: digits may differ", name,
+                       text_of(b, name), first.path(), text_of(a, name)));
+  }
+  const bool alike = a.shape == b.shape && a.columns.size() == b.columns.size() &&
+                     a.traces == b.traces &&
+                     std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(),
+                                [](const auto& x, const auto& y) { return x.name == y.name; });
+  if (!alike) refuse(fmt::format("has other variables than {}", first.path()));
+}
+
+/// Ranges of points for messages: "0 to 99, 300 to 399".
+class Ranges {
+ public:
+  void add(std::int64_t point) {
+    ++points_;
+    if (!ranges_.empty() && ranges_.back().second == point - 1) {
+      ranges_.back().second = point;
+    } else if (ranges_.size() < kMost) {
+      ranges_.emplace_back(point, point);
+    } else {
+      more_ = true;
+    }
+  }
+  bool empty() const { return points_ == 0; }
+  std::string text() const {
+    std::string all;
+    for (const auto& [from, to] : ranges_) {
+      all += fmt::format("{}{}{}", all.empty() ? "" : ", ", from,
+                         from == to ? "" : fmt::format(" to {}", to));
+    }
+    return fmt::format("{} points: {}{}", count_text(points_), all, more_ ? ", ..." : "");
+  }
+
+ private:
+  static constexpr std::size_t kMost = 20;
+  std::vector<std::pair<std::int64_t, std::int64_t>> ranges_;
+  std::int64_t points_ = 0;
+  bool more_ = false;
+};
+
+struct Counts {
+  std::int64_t ok = 0, failed = 0, skipped = 0;
+};
+
+/// The points of all parts; who has a point that another has too is told.
+class Joined {
+ public:
+  explicit Joined(const std::vector<io::ResultBlocks>& parts) : parts_(parts) {}
+
+  sweep::Block read(std::int64_t first, std::int64_t count) {
+    const sweep::Layout& layout = parts_[0].layout();
+    sweep::Block block(first, count, layout.columns.size(), layout.traces);
+    for (const io::ResultBlocks& part : parts_) {
+      sweep::Block own = part.read(first, count);
+      for (std::int64_t i = 0; i < count; ++i) {
+        if (own.status[i] == sweep::Status::not_run) continue;
+        if (block.status[i] != sweep::Status::not_run) {
+          twice_.add(first + i);
+          continue;
+        }
+        take(own, block, i);
+      }
+    }
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (block.status[i] == sweep::Status::not_run) missing_.add(first + i);
+      counts_.ok += block.status[i] == sweep::Status::ok;
+      counts_.failed += block.status[i] == sweep::Status::failed;
+      counts_.skipped += block.status[i] == sweep::Status::skipped;
+    }
+    return block;
+  }
+  const Ranges& twice() const { return twice_; }
+  const Ranges& missing() const { return missing_; }
+  const Counts& counts() const { return counts_; }
+
+ private:
+  static void take(sweep::Block& from, sweep::Block& to, std::int64_t i) {
+    to.status[i] = from.status[i];
+    to.failures[i] = std::move(from.failures[i]);
+    const auto columns = from.values.size() / static_cast<std::size_t>(from.count);
+    for (std::size_t c = 0; c < columns; ++c) to.value(c, i) = from.value(c, i);
+    if (!to.traces.empty()) to.traces[i] = std::move(from.traces[i]);
+  }
+
+  const std::vector<io::ResultBlocks>& parts_;
+  Ranges twice_, missing_;
+  Counts counts_;
+};
+
+/// Wall time and shard are those of parts.
+sweep::Layout layout_of_all(const std::vector<io::ResultBlocks>& parts) {
+  sweep::Layout layout = parts[0].layout();
+  const std::set<std::string> own = {"shard",          "points_ok",      "points_failed",
+                                     "points_skipped", "points_not_run", "wall_time_s"};
+  std::erase_if(layout.attributes,
+                [&](const sweep::Attribute& attribute) { return own.contains(attribute.first); });
+  return layout;
+}
+
+double wall_time(const std::vector<io::ResultBlocks>& parts) {
+  double sum = 0.0;
+  for (const io::ResultBlocks& part : parts) {
+    for (const auto& [name, value] : part.layout().attributes) {
+      const double* seconds = std::get_if<double>(&value);
+      if (name == "wall_time_s" && seconds) sum += *seconds;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+int merge(const std::string& output, const std::vector<std::string>& files) {
+  std::vector<io::ResultBlocks> parts;
+  for (const std::string& file : files) {
+    if (file == output) throw core::InputError({file, 0}, "is the output of the merge itself");
+    parts.emplace_back(file);
+    check_same(parts.front(), parts.back());
+  }
+  const sweep::Layout layout = layout_of_all(parts);
+  const auto writer = io::make_result_writer(output, layout);
+  Joined joined(parts);
+  for (std::int64_t first = 0; first < layout.points(); first += kAtOnce) {
+    writer->write(joined.read(first, std::min(kAtOnce, layout.points() - first)));
+  }
+  std::vector<core::Fault> faults;
+  const auto check = [&](const Ranges& points, const char* what) {
+    if (points.empty()) return;
+    faults.emplace_back();
+    faults.back().place.file = output;
+    faults.back().text = fmt::format("{} {}", what, points.text());
+  };
+  check(joined.twice(), "cannot be made: in more than one part are");
+  check(joined.missing(), "cannot be made: in no part are");
+  if (!faults.empty()) throw core::InputError(std::move(faults));
+  const Counts& counts = joined.counts();
+  writer->finish({{"points_ok", counts.ok},
+                  {"points_failed", counts.failed},
+                  {"points_skipped", counts.skipped},
+                  {"merged_from", static_cast<std::int64_t>(parts.size())},
+                  {"wall_time_s", wall_time(parts)}});
+  fmt::print("{}: {} points of {} parts, {} ok, {} failed, {} skipped\n", output,
+             count_text(layout.points()), parts.size(), count_text(counts.ok),
+             count_text(counts.failed), count_text(counts.skipped));
+  return counts.failed > 0 ? kPointsFailed : kDone;
+}
+
+}  // namespace millstudy::cli

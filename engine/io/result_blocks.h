@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sweep/block.h"
+#include "sweep/layout.h"
+
+namespace millstudy::io {
+
+/// A result file read back as the blocks it was written from.
+class ResultBlocks {
+ public:
+  /// @throws core::InputError if the file is no result that this program wrote
+  explicit ResultBlocks(const std::string& path);
+  ~ResultBlocks();
+  ResultBlocks(ResultBlocks&&) noexcept;
+
+  const std::string& path() const;
+  /// All that the file says but the results.
+  const sweep::Layout& layout() const;
+
+  /// Points first .. first + count - 1, bit for bit as they were written.
+  /// @throws core::InputError if the file is damaged
+  sweep::Block read(std::int64_t first, std::int64_t count) const;
+
+ private:
+  struct Open;
+  std::unique_ptr<Open> open_;
+};
+
+}  // namespace millstudy::io
