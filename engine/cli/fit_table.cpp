@@ -101,6 +101,16 @@ std::string fit_text(const FitTable& table) {
                     e.unit, number(e.standard_error, d), number(e.jackknife_error, d),
                     number(e.confidence_low, d), number(e.confidence_high, d));
   }
+  if (!table.estimates.empty() && std::isfinite(table.estimates.front().bootstrap_error)) {
+    text += fmt::format("\n{:<28} {:>12} {:<6} {:>10}   {}\n", "bootstrap over revolutions", "", "",
+                        "std error", "95 % of the samples");
+    for (const identify::Estimate& e : table.estimates) {
+      const int d = decimals(e);
+      text += fmt::format("{:<28} {:>12} {:<6} {:>10}   {} .. {}\n", e.name, "", e.unit,
+                          number(e.bootstrap_error, d), number(e.bootstrap_low, d),
+                          number(e.bootstrap_high, d));
+    }
+  }
   text += fmt::format("condition number {:.1f}\n", table.condition_number);
   text += record_lines(table);
   for (const std::string& word : table.words) text += fmt::format("\nnote: {}\n", word);
@@ -120,6 +130,9 @@ std::string fit_json(const FitTable& table, const std::string& result,
                                  {"standard_error", json_number(e.standard_error)},
                                  {"naive_error", json_number(e.naive_error)},
                                  {"jackknife_error", json_number(e.jackknife_error)},
+                                 {"bootstrap_error", json_number(e.bootstrap_error)},
+                                 {"bootstrap_low", json_number(e.bootstrap_low)},
+                                 {"bootstrap_high", json_number(e.bootstrap_high)},
                                  {"confidence_low", json_number(e.confidence_low)},
                                  {"confidence_high", json_number(e.confidence_high)}};
   }

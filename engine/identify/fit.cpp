@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "identify/bootstrap.h"
 #include "identify/fit_steps.h"
 #include "identify/student.h"
 #include "identify/uncertainty.h"
@@ -157,6 +158,19 @@ FitResult fit(const cutter::Cutter& cutter, const std::vector<Record>& records,
       result.warnings.push_back(
           "records disagree by more than their noise: no one set of these parameters describes "
           "them all; the intervals are those of the jackknife over records");
+    }
+  }
+  if (settings.bootstrap > 0) {
+    const auto samples = bootstrap(cutter, records, problem, solved.prior_noise);
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+      std::vector<double> values;
+      for (const std::vector<double>& sample : samples) values.push_back(sample[i]);
+      const Spread found = spread(std::move(values));
+      const double factor = factor_of(shared[i]);
+      Estimate& e = result.estimates[i];
+      e.bootstrap_error = factor * found.deviation;
+      e.bootstrap_low = factor * found.low;
+      e.bootstrap_high = factor * found.high;
     }
   }
   result.error_seconds = clock.lap();

@@ -88,6 +88,9 @@ struct FitSettings {
   double tolerance = 1e-8;  ///< relative decrease of the cost at which it has converged
   int max_iterations = 100;
 
+  int bootstrap = 0;  ///< samples of the bootstrap (I13), 0 or at least 20
+  int seed = 1;       ///< of the bootstrap, >= 0
+
   /// Once it is set, fit() throws Stopped.
   const std::atomic<bool>* stop = nullptr;
   /// Told of each iteration of the joint fit: its number and the root mean square residual [N].
@@ -103,6 +106,9 @@ struct Estimate {
   double naive_error = std::numeric_limits<double>::quiet_NaN();     ///< as if residuals were white
   double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of correlated ones, (I8)
   double jackknife_error = std::numeric_limits<double>::quiet_NaN();  ///< over records, (I9)
+  double bootstrap_error = std::numeric_limits<double>::quiet_NaN();  ///< (I13)
+  double bootstrap_low = std::numeric_limits<double>::quiet_NaN();    ///< 2.5 % of its samples
+  double bootstrap_high = std::numeric_limits<double>::quiet_NaN();   ///< 97.5 %
   double confidence_low =
       std::numeric_limits<double>::quiet_NaN();  ///< 95 %, of the larger of both
   double confidence_high = std::numeric_limits<double>::quiet_NaN();
@@ -154,7 +160,7 @@ struct FitResult {
   std::string summary;                ///< how the solver ended
   double start_seconds = 0.0;         ///< wall time of finding where to begin
   double solve_seconds = 0.0;         ///< of the joint fit
-  double error_seconds = 0.0;         ///< of errors and records left out
+  double error_seconds = 0.0;         ///< of errors, records left out and bootstrap
   std::vector<std::string> warnings;  ///< what the user should know, in whole sentences
 };
 

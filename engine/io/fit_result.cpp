@@ -97,6 +97,7 @@ class Variables {
 void write_estimates(Variables& file, const FitReport& report) {
   std::vector<std::string> names, units;
   std::vector<double> values, standard, naive, jackknife, low, high;
+  std::vector<double> bootstrap, bootstrap_low, bootstrap_high;
   for (const identify::Estimate& e : report.estimates) {
     names.push_back(e.name);
     units.push_back(e.unit);
@@ -104,6 +105,9 @@ void write_estimates(Variables& file, const FitReport& report) {
     standard.push_back(e.standard_error);
     naive.push_back(e.naive_error);
     jackknife.push_back(e.jackknife_error);
+    bootstrap.push_back(e.bootstrap_error);
+    bootstrap_low.push_back(e.bootstrap_low);
+    bootstrap_high.push_back(e.bootstrap_high);
     low.push_back(e.confidence_low);
     high.push_back(e.confidence_high);
   }
@@ -119,6 +123,12 @@ void write_estimates(Variables& file, const FitReport& report) {
            "standard error if residuals were white, in coefficient_unit");
   file.add("jackknife_error", {name}, {n}, jackknife, "1",
            "standard error by leaving out each record, in coefficient_unit");
+  if (!bootstrap.empty() && std::isfinite(bootstrap.front())) {
+    file.add("bootstrap_error", {name}, {n}, bootstrap, "1",
+             "standard error by bootstrap over revolutions, in coefficient_unit");
+    file.add("bootstrap_low", {name}, {n}, bootstrap_low, "1", "2.5 % of the bootstrap samples");
+    file.add("bootstrap_high", {name}, {n}, bootstrap_high, "1", "97.5 % of the bootstrap samples");
+  }
   file.add("confidence_low", {name}, {n}, low, "1", "95 % interval, lower end");
   file.add("confidence_high", {name}, {n}, high, "1", "95 % interval, upper end");
   file.add("covariance", {name, "other_name"}, {n, n}, report.covariance, "1",

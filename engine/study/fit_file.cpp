@@ -184,6 +184,8 @@ class Reader {
       if (name == "reference_chip_thickness_mm") s.reference_chip_thickness = *number;
       if (name == "below_Hz") s.below = *number;
       if (name == "tolerance") s.tolerance = *number;
+      if (name == "bootstrap") s.bootstrap = static_cast<int>(*number);
+      if (name == "seed") s.seed = static_cast<int>(*number);
       if (name == "max_iterations") s.max_iterations = static_cast<int>(*number);
     });
     if (!fit->find("name")) miss("fit.name");
@@ -313,7 +315,8 @@ class Reader {
     }
     dynamics::DynamometerMode mode;
     mode.gain = 1.0;
-    for_each_key(item, "dynamometer.x", [&](const Key& key, const core::Value& value) {
+    const std::string section = fmt::format("dynamometer.{}", kAxes[axis]);
+    for_each_key(item, section, [&](const Key& key, const core::Value& value) {
       const double x = std::get<double>(checked_setting(key, value));
       if (key.name() == "frequency_Hz") mode.mode.natural_frequency = 2.0 * core::kPi * x;
       if (key.name() == "damping_ratio") mode.mode.damping_ratio = x;

@@ -51,6 +51,9 @@ std::span<const Key> method_keys() {
        "forces are fitted and compared below this frequency only"},
       {"fit.tolerance", kNumber, "", {1e-14, 1e-2}, 1e-8, "relative decrease of the cost at which the solver is done"},
       {"fit.max_iterations", kInteger, "", {1.0, 10000.0}, 100.0, "iterations of the solver: at most"},
+      {"fit.bootstrap", kInteger, "", {20.0, 100000.0}, Optional{},
+       "samples of a bootstrap over revolutions: errors and 95 % intervals that assume no distribution; 200 are usual"},
+      {"fit.seed", kInteger, "", {0.0, 2147483647.0}, 1.0, "seed of the bootstrap"},
       {"fit.fixed", kTable, "", {}, Optional{}, "coefficients that are known: Kte_N_per_mm = 0.0"},
       {"fit.prior", kTable, "", {}, Optional{},
        "coefficients that are known roughly: Kac_N_per_mm2 = { mean = 700.0, deviation = 100.0 }"},
@@ -92,9 +95,15 @@ std::span<const Key> record_keys() {
 std::span<const Key> mode_keys() {
   static const std::vector<Key> keys = {
       {"dynamometer.x.frequency_Hz", kNumber, "Hz", up_to(1e6), Required{},
-       "mode of the dynamometer along x, in a list [[dynamometer.x]]; y and z likewise: natural frequency"},
+       "natural frequency: of the dynamometer along x, in a list [[dynamometer.x]]"},
       {"dynamometer.x.damping_ratio", kNumber, "", {0.0, 1.0, false, true}, Required{}, "its damping ratio"},
       {"dynamometer.x.gain", kNumber, "", within(1e3), 1.0, "its share in the signal; 1 for a single mode"},
+      {"dynamometer.y.frequency_Hz", kNumber, "Hz", up_to(1e6), Required{}, "natural frequency: along y, in a list [[dynamometer.y]]"},
+      {"dynamometer.y.damping_ratio", kNumber, "", {0.0, 1.0, false, true}, Required{}, "its damping ratio"},
+      {"dynamometer.y.gain", kNumber, "", within(1e3), 1.0, "its share in the signal"},
+      {"dynamometer.z.frequency_Hz", kNumber, "Hz", up_to(1e6), Required{}, "natural frequency: along z, in a list [[dynamometer.z]]"},
+      {"dynamometer.z.damping_ratio", kNumber, "", {0.0, 1.0, false, true}, Required{}, "its damping ratio"},
+      {"dynamometer.z.gain", kNumber, "", within(1e3), 1.0, "its share in the signal"},
   };
   return keys;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The main study as the program runs it, on two threads against one, and what the engine around
-// the computation (plan, scheduling, HDF5) costs. Runs are interleaved, so that a busy machine
-// slows all alike; read the row ggg70_slot_median.
+// the computation (plan, scheduling, journal, HDF5) costs. Runs are interleaved, so that a busy
+// machine slows all alike; read the row ggg70_slot_median.
 //
 //   bench_study [PAIRS [FEED_RATES]]     5 pairs of the whole study take a quarter of an hour;
 //                                        FEED_RATES takes fewer values of that axis
@@ -17,6 +17,7 @@
 #include "io/result_writer.h"
 #include "io/toml_reader.h"
 #include "study/study.h"
+#include "sweep/journal.h"
 #include "sweep/runner.h"
 
 namespace {
@@ -39,15 +40,34 @@ core::Value study_tree(int feed_rates) {
   return root;
 }
 
+class JournalSink : public sweep::Sink {
+ public:
+  explicit JournalSink(sweep::Journal& journal) : journal_(journal) {}
+  void write(const sweep::Block& block) override { journal_.append(block, {block.seconds}); }
+  void finish(const std::vector<sweep::Attribute>&) override {}
+
+ private:
+  sweep::Journal& journal_;
+};
+
 /// All that `millstudy run` does.
 std::int64_t whole_run(int feed_rates, int threads) {
   const study::Study study = study::resolve(study_tree(feed_rates), io::read_toml);
   const sweep::Layout layout = study::layout(study);
   const std::string path =
       (std::filesystem::temp_directory_path() / "millstudy_bench_study.h5").string();
+  sweep::JournalHeader header;
+  header.points = header.count = layout.points();
+  header.block_size = sweep::default_block_size(layout);
+  header.columns = static_cast<std::int64_t>(layout.columns.size());
+  sweep::Journal journal(path + ".journal", header, "");
+  JournalSink appended(journal);
+  sweep::run_blocks(study::block_evaluator(study), appended, sweep::remainder(journal),
+                    {.threads = threads});
   const auto sink = io::make_result_writer(path, layout);
-  sweep::run_blocks(layout, study::block_evaluator(study), *sink, {.threads = threads});
+  sweep::replay(journal, *sink);
   sink->finish({});
+  journal.remove();
   std::filesystem::remove(path);
   return layout.points();
 }

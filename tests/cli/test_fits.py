@@ -169,6 +169,9 @@ class Fits(ProgramTest):
         self.faults(FIT.replace('method = "average"', 'estimate = ["phase", "dynamometer"]') + records,
                     "needs modes to begin with")
         self.faults(FIT.replace('method = "average"', 'loss = "huber"') + records, "fit.loss_scale_N")
+        self.faults(FIT + records + "[[dynamometer.y]]\nfrequency_Hz = -1.0\n", "dynamometer.y.frequency_Hz = -1 Hz must be > 0",
+                    "dynamometer.y.damping_ratio is missing")
+        self.faults(FIT.replace('method = "average"', "bootstrap = 3") + records, "fit.bootstrap = 3 must be >= 20")
         self.faults(FIT.replace("method", "prior = { Ktc_N_per_mm2 = 3 }\nmethod") + records, "mean = ...")
 
     def test_bad_traces_are_told_with_file_and_line(self):

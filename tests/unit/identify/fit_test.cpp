@@ -152,6 +152,39 @@ TEST(Fit, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Bootstrap, HasTheErrorsOfCorrelatedResidualsForAnyNumberOfThreads) {
+  Truth truth = half_immersion();
+  truth.samples = 4000;
+  std::vector<Record> records = three_feeds(truth);
+  for (std::size_t r = 0; r < 3; ++r) add_noise(records[r].trace, 5.0, 0.8, r);
+  FitSettings settings;
+  settings.bootstrap = 60;
+  std::vector<FitResult> results;
+  for (const std::size_t threads : {1, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(fit(truth.cutter, records, settings));
+  }
+  double worst = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const Estimate& e = results[0].estimates[i];
+    worst = std::max(worst, std::abs(std::log(e.bootstrap_error / e.standard_error)));
+    EXPECT_LT(e.bootstrap_low, e.value + 0.5 * e.standard_error) << e.name;
+    EXPECT_GT(e.bootstrap_high, e.value - 0.5 * e.standard_error) << e.name;
+    EXPECT_NEAR(e.bootstrap_high - e.bootstrap_low, 3.92 * e.bootstrap_error,
+                1.0 * e.bootstrap_error);
+    for (const FitResult& result : results) {
+      EXPECT_EQ(result.estimates[i].bootstrap_error, e.bootstrap_error);
+      EXPECT_EQ(result.estimates[i].bootstrap_low, e.bootstrap_low);
+    }
+  }
+  std::printf("bootstrap over standard error: within %.0f %%\n", 100.0 * std::expm1(worst));
+  EXPECT_LT(worst, 0.5);
+  settings.bootstrap = 20;
+  settings.seed = 2;
+  EXPECT_NE(fit(truth.cutter, records, settings).estimates[0].bootstrap_error,
+            results[0].estimates[0].bootstrap_error);
+}
+
 TEST(Fit, EndsAtTheLinearLeastSquaresOfTheCoefficients) {
   // What variable projection would end at: K by linear least squares at the phases, speeds and
   // runouts that were found.
