@@ -110,6 +110,11 @@ class Preparation {
     if (end_ - begin_ < kFewestSamples) {
       fault(fmt::format("{} samples are too few: there must be at least {}", end_ - begin_,
                         kFewestSamples));
+    } else if (end_ - begin_ > kMostSamples) {
+      fault(fmt::format(
+          "{} samples, {:.4g} s, are more than {}: take a part of them, by window_s = "
+          "[from, to]; some hundred revolutions say all",
+          end_ - begin_, static_cast<double>(end_ - begin_) / axis.sampling_rate, kMostSamples));
     }
   }
 

@@ -38,6 +38,8 @@ struct PreparedTrace {
 
 /// Fewest samples that prepare_trace takes for a record.
 inline constexpr std::size_t kFewestSamples = 16;
+/// And most: a fit of more would take hours and say no more.
+inline constexpr std::size_t kMostSamples = 10'000'000;
 
 /// Takes the window out of the channels, converts to N, applies the axis map.
 ///
@@ -49,7 +51,8 @@ inline constexpr std::size_t kFewestSamples = 16;
 /// @throws core::InputError, with up to 20 faults, each naming the file and line or sample: a
 ///         channel that is not there, unequal lengths, unknown units, volts without a sensitivity,
 ///         no sampling rate, a window outside of the data, NaN or infinite samples, times that
-///         repeat, jump or drift, fewer than kFewestSamples samples
+///         repeat, jump or drift, fewer than kFewestSamples samples,
+///         more than kMostSamples
 PreparedTrace prepare_trace(const ChannelSet& set, const TraceOptions& options);
 
 }  // namespace millstudy::identify

@@ -82,6 +82,19 @@ TEST(PrepareTrace, RefusesAWindowOutsideOfTheRecordSayingWhereThatIs) {
   EXPECT_TRUE(contains(fault_of(ramps(), with), "must go from a time to a later one"));
 }
 
+TEST(PrepareTrace, RefusesARecordThatIsTooLongButTakesAPartOfIt) {
+  ChannelSet set = ramps();
+  set.channels.resize(1);
+  set.channels[0].samples.assign(kMostSamples + 1, 1.0);
+  set.channels[0].samples[3] = 2.0;
+  EXPECT_EQ(fault_of(set, options("Fx", "", "")),
+            "a.csv: 10000001 samples, 1e+04 s, are more than 10000000: take a part of them, by "
+            "window_s = [from, to]; some hundred revolutions say all");
+  TraceOptions part = options("Fx", "", "");
+  part.window = TimeWindow{2.0, 3.0};
+  EXPECT_EQ(prepare_trace(set, part).trace.size(), 1000u);
+}
+
 TEST(PrepareTrace, ConvertsUnitsOfTheFileAndOfTheKey) {
   ChannelSet set = ramps();
   set.channels[0].unit = "kN";
