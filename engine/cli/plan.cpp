@@ -27,7 +27,15 @@ double memory_bytes(const sweep::Layout& layout, const Estimate& estimate, int t
 }
 
 std::string axis_text(const study::Axis& axis) {
-  if (!axis.numeric()) return fmt::format("{}", fmt::join(axis.labels, ", "));
+  if (!axis.numeric()) {
+    std::vector<std::string> different;  // a sampled axis has each many times
+    for (const std::string& label : axis.labels) {
+      if (std::find(different.begin(), different.end(), label) != different.end()) continue;
+      if (different.size() == 12) return fmt::format("{}, ...", fmt::join(different, ", "));
+      different.push_back(label);
+    }
+    return fmt::format("{}", fmt::join(different, ", "));
+  }
   const auto [least, most] = std::minmax_element(axis.numbers.begin(), axis.numbers.end());
   if (axis.numbers.size() <= 6)
     return fmt::format("{} {}", fmt::join(axis.numbers, ", "), axis.key->unit);

@@ -8,6 +8,7 @@ namespace millstudy::study {
 namespace {
 
 std::string text_of(const Axis& axis) {
+  if (!axis.sampled.empty()) return fmt::format("axis {} = {}", axis.path, axis.sampled);
   std::string text = fmt::format("axis {} = {}", axis.path, fmt::join(axis.numbers, " "));
   for (std::size_t i = 0; i < axis.labels.size(); ++i) {
     text += fmt::format(" [{}", axis.labels[i]);
@@ -39,7 +40,7 @@ std::string canonical_text(const Study& study, const SettingMap& settings, const
       text += fmt::format("{} = {}\n", path, to_string(setting));
   }
   if (study.axes.empty()) return text;
-  text += study.space.design() == sweep::Design::zip ? "zip\n" : "grid\n";
+  text += study.space.design() == sweep::Design::grid ? "grid\n" : "zip\n";
   for (const Axis& axis : study.axes) text += text_of(axis) + '\n';
   std::set<std::string> limits;  // their order does not count
   for (const Limit& limit : study.limits) limits.insert(text_of(limit));

@@ -46,7 +46,7 @@ sweep::Layout layout(const Study& study) {
     }
     result.coordinates.push_back(std::move(coordinate));
   }
-  if (study.space.design() == sweep::Design::zip) {
+  if (study.space.design() != sweep::Design::grid && !study.axes.empty()) {
     result.dimensions = {"point"};
     result.shape = {study.space.points()};
   }

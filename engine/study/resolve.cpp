@@ -60,7 +60,11 @@ class Resolver {
     faults_.throw_if_any();
     study_.columns = study_.kind->columns(study_.outputs);
     study_.warnings = left_validity(study_, given_);
-    if (study_.kind->notes) study_.notes = study_.kind->notes(given_, study_.base);
+    if (study_.kind->notes) {
+      for (core::Fault& note : study_.kind->notes(given_, study_.base)) {
+        study_.notes.push_back(std::move(note));
+      }
+    }
     study_.canonical = canonical_text(study_, settings_, given_);
     return std::move(study_);
   }

@@ -28,6 +28,7 @@ struct Axis {
   std::vector<double> numbers;                    ///< in the unit of the key; or
   std::vector<std::string> labels;                ///< one per value, with
   std::vector<std::vector<Assignment>> settings;  ///< what each label sets
+  std::string sampled;  ///< what the values were drawn from, and how; empty: they are as given
 
   bool numeric() const { return labels.empty(); }
   std::size_t size() const { return numeric() ? numbers.size() : labels.size(); }

@@ -8,11 +8,13 @@
 
 #include "study/quantity.h"
 #include "study/suggest.h"
+#include "sweep/sampling.h"
 
 namespace millstudy::study {
 namespace {
 
 constexpr double kLongestAxis = 1e6;
+constexpr std::int64_t kMostSamples = 10'000'000;
 
 class SweepReader {
  public:
@@ -21,16 +23,17 @@ class SweepReader {
 
   void read(const core::Value& section) {
     if (!section.is_table()) return faults_.add(section.place, "sweep must be a table");
-    sweep::Design design = sweep::Design::grid;
+    read_design(section);
     for (const auto& [key, value] : section.table()) {
-      if (key == "design") {
-        design = read_design(value);
+      if (key == "design" || key == "samples" || key == "seed") {
+        continue;
       } else if (key == "axes") {
         read_axes(value, "");
       } else if (key == "where") {
         read_limits(value);
       } else {
-        constexpr std::array<std::string_view, 3> kKnown = {"design", "axes", "where"};
+        constexpr std::array<std::string_view, 5> kKnown = {"design", "samples", "seed", "axes",
+                                                            "where"};
         faults_.add(value.place, fmt::format("sweep.{} is not a key of a study{}", key,
                                              suggestion(key, kKnown)));
       }
@@ -44,18 +47,113 @@ class SweepReader {
     if (study_.axes.empty()) {
       return faults_.add(section.find("axes")->place, "sweep.axes has no axis");
     }
-    make_space(design, section.find("axes")->place);
+    make_space(section.find("axes")->place);
   }
 
  private:
-  sweep::Design read_design(const core::Value& value) {
-    if (value.is_string() && value.string() == "grid") return sweep::Design::grid;
-    if (value.is_string() && value.string() == "zip") return sweep::Design::zip;
+  void read_design(const core::Value& section) {
+    constexpr std::array<std::string_view, 4> kDesigns = {"grid", "zip", "latin_hypercube",
+                                                          "sobol"};
+    if (const core::Value* design = section.find("design")) {
+      const auto* at = design->is_string()
+                           ? std::find(kDesigns.begin(), kDesigns.end(), design->string())
+                           : kDesigns.end();
+      if (at == kDesigns.end()) {
+        faults_.add(design->place, design->is_string()
+                                       ? fmt::format("sweep.design = \"{}\" must be one of {}",
+                                                     design->string(), fmt::join(kDesigns, ", "))
+                                       : fmt::format("sweep.design must be a string: one of {}",
+                                                     fmt::join(kDesigns, ", ")));
+      } else {
+        design_ = static_cast<sweep::Design>(at - kDesigns.begin());
+      }
+    }
+    const core::Value* samples = section.find("samples");
+    const core::Value* seed = section.find("seed");
+    if (is_sampled()) {
+      if (samples) {
+        samples_ = whole_number(*samples, "sweep.samples", 1, kMostSamples);
+      } else {
+        faults_.add(section.place, "sweep.samples is missing: the number of points to sample");
+      }
+      if (seed) seed_ = whole_number(*seed, "sweep.seed", 0, 1LL << 53);
+      if (design_ == sweep::Design::sobol && samples_ > 0 && (samples_ & (samples_ - 1)) != 0) {
+        study_.notes.push_back(
+            {samples->place, fmt::format("sweep.samples = {} is no power of two: a sobol design is "
+                                         "balanced for those only",
+                                         samples_)});
+      }
+      return;
+    }
+    for (const auto& [value, name] : {std::pair{samples, "samples"}, std::pair{seed, "seed"}}) {
+      if (value) {
+        faults_.add(value->place, fmt::format("sweep.{} is for the designs latin_hypercube and "
+                                              "sobol: leave it out",
+                                              name));
+      }
+    }
+  }
+
+  std::int64_t whole_number(const core::Value& value, std::string_view name, std::int64_t least,
+                            std::int64_t most) {
+    const auto* number = std::get_if<std::int64_t>(&value.data);
+    if (number && *number >= least && *number <= most) return *number;
     faults_.add(value.place,
-                value.is_string()
-                    ? fmt::format("sweep.design = \"{}\" must be one of grid, zip", value.string())
-                    : "sweep.design must be a string: grid or zip");
-    return sweep::Design::grid;
+                fmt::format("{} must be a whole number from {} to {}", name, least, most));
+    return 0;
+  }
+
+  bool is_sampled() const {
+    return design_ == sweep::Design::latin_hypercube || design_ == sweep::Design::sobol;
+  }
+
+  /// For the study hash.
+  std::string how_sampled() const {
+    return fmt::format("{} {} samples, seed {}, dimension {},",
+                       design_ == sweep::Design::sobol ? "sobol" : "latin_hypercube", samples_,
+                       seed_, study_.axes.size());
+  }
+
+  /// Where the axis that is read now stands at each point, between 0 and 1.
+  std::vector<double> sampled() const {
+    const auto dimension = static_cast<int>(study_.axes.size());
+    if (design_ == sweep::Design::sobol && dimension >= sweep::kSobolDimensions) {
+      return std::vector<double>(static_cast<std::size_t>(samples_), 0.5);  // make_space() tells
+    }
+    return design_ == sweep::Design::sobol ? sweep::sobol(samples_, dimension, seed_)
+                                           : sweep::latin_hypercube(samples_, dimension, seed_);
+  }
+
+  /// Of the values of a list each point takes one.
+  template <class T>
+  void take_sampled(std::vector<T>& values) const {
+    if (values.empty()) return;
+    std::vector<T> taken;
+    for (const double u : sampled()) {
+      taken.push_back(values[static_cast<std::size_t>(u * static_cast<double>(values.size()))]);
+    }
+    values = std::move(taken);
+  }
+
+  void sample_range(const Key& key, const core::Value& range, double from, double to, bool log,
+                    Axis& axis) const {
+    if (const core::Value* count = range.find("count")) {
+      fail(*count, fmt::format("sweep.axes: {}: count is not for a sampled design: sweep.samples "
+                               "says how many",
+                               key.path));
+    }
+    if (from >= to) {
+      fail(range, fmt::format("sweep.axes: {}: from = {} must be < to = {}", key.path, from, to));
+    }
+    axis.sampled =
+        fmt::format("{} from {} to {}{}", how_sampled(), from, to, log ? " in logarithms" : "");
+    for (const double u : sampled()) {
+      if (key.type == KeyType::integer) {
+        axis.numbers.push_back(from + std::floor(u * (to - from + 1.0)));
+      } else {
+        axis.numbers.push_back(log ? from * std::pow(to / from, u) : from + (to - from) * u);
+      }
+    }
   }
 
   /// Axes may be written "cut.axial_depth_mm" = ... or cut.axial_depth_mm = ..., a nested table.
@@ -82,7 +180,7 @@ class SweepReader {
                     [&](const Axis& axis) { return axis.key == &key; })) {
       return faults_.add(value.place, fmt::format("sweep.axes: {} is given twice", key.path));
     }
-    Axis axis{std::string(key.path), &key, {}, {}, {}};
+    Axis axis{std::string(key.path), &key, {}, {}, {}, {}};
     const bool fine = faults_.collect([&] {
       if (value.is_table()) {
         read_range(key, value, axis);
@@ -118,6 +216,19 @@ class SweepReader {
       faults.collect([&] { add_value(key, item, axis); });
     }
     faults.throw_if_any();
+    if (!is_sampled()) return;
+    axis.sampled = fmt::format("{} of {}", how_sampled(), fmt::join(axis.numbers, " "));
+    for (std::size_t i = 0; i < axis.labels.size(); ++i) {
+      axis.sampled += fmt::format(" [{}", axis.labels[i]);
+      for (const Assignment& assignment : axis.settings[i]) {
+        axis.sampled +=
+            fmt::format(" {} = {}", assignment.key->path, to_string(assignment.setting));
+      }
+      axis.sampled += ']';
+    }
+    take_sampled(axis.numbers);
+    take_sampled(axis.labels);
+    take_sampled(axis.settings);
   }
 
   /// What a key with a list takes: lists, or numbers where it is one of them.
@@ -183,13 +294,13 @@ class SweepReader {
     }
     const double from = range_member(key, range, "from");
     const double to = range_member(key, range, "to");
-    const double count = range_member(key, range, "count");
+    const double count = is_sampled() ? 2.0 : range_member(key, range, "count");
     const bool log = logarithmic(key, range);
     if (count != std::nearbyint(count) || count < 1.0) {
       fail(*range.find("count"),
            fmt::format("sweep.axes: {}: count = {} must be a whole number >= 1", key.path, count));
     }
-    check_length(key, *range.find("count"), count);
+    if (!is_sampled()) check_length(key, *range.find("count"), count);
     if (count == 1.0 && from != to) {
       fail(*range.find("count"),
            fmt::format("sweep.axes: {}: count = 1 leaves out to = {}: give 2 or more", key.path,
@@ -202,6 +313,7 @@ class SweepReader {
     ends.collect([&] { checked_setting(key, *range.find("from")); });
     ends.collect([&] { checked_setting(key, *range.find("to")); });
     ends.throw_if_any();
+    if (is_sampled()) return sample_range(key, range, from, to, log, axis);
     const double last = count - 1.0;
     for (double i = 0.0; i <= last; ++i) {
       // Multiplied before it is divided: 600 to 3000 in 25 steps gives 700, not 699.9999999999999.
@@ -282,17 +394,24 @@ class SweepReader {
     }
   }
 
-  void make_space(sweep::Design design, const core::Place& place) {
-    if (design == sweep::Design::grid) check_repeats();
+  void make_space(const core::Place& place) {
+    if (design_ == sweep::Design::grid) check_repeats();
+    if (design_ == sweep::Design::sobol && study_.axes.size() > sweep::kSobolDimensions) {
+      return faults_.add(place, fmt::format("sweep.axes has {} axes: a sobol design has {} at most",
+                                            study_.axes.size(), sweep::kSobolDimensions));
+    }
     std::vector<std::int64_t> lengths;
     for (const Axis& axis : study_.axes) lengths.push_back(static_cast<std::int64_t>(axis.size()));
     try {
-      study_.space = sweep::ParameterSpace(design, std::move(lengths));
+      study_.space = sweep::ParameterSpace(design_, std::move(lengths));
     } catch (const core::InputError& error) {
       faults_.add(place, error.what());
     }
   }
 
+  sweep::Design design_ = sweep::Design::grid;
+  std::int64_t samples_ = 0;
+  std::int64_t seed_ = 1;
   const FileSettings& read_file_;
   Study& study_;
   Given& given_;

@@ -13,7 +13,7 @@ namespace millstudy::sweep {
 ParameterSpace::ParameterSpace(Design design, std::vector<std::int64_t> lengths)
     : design_(design), lengths_(std::move(lengths)) {
   if (lengths_.empty()) return;
-  if (design_ == Design::zip) {
+  if (design_ != Design::grid) {
     if (std::adjacent_find(lengths_.begin(), lengths_.end(), std::not_equal_to<>()) !=
         lengths_.end()) {
       throw core::InputError(fmt::format(
@@ -34,7 +34,7 @@ ParameterSpace::ParameterSpace(Design design, std::vector<std::int64_t> lengths)
 }
 
 void ParameterSpace::indices(std::int64_t point, std::span<std::int64_t> out) const {
-  if (design_ == Design::zip) {
+  if (design_ != Design::grid) {
     std::fill(out.begin(), out.end(), point);
     return;
   }

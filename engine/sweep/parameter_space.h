@@ -9,8 +9,10 @@ namespace millstudy::sweep {
 
 /// How the values of the axes are combined into points.
 enum class Design {
-  grid,  ///< every combination, the last axis varying fastest
-  zip,   ///< the i-th value of every axis together; all axes have one length
+  grid,             ///< every combination, the last axis varying fastest
+  zip,              ///< the i-th value of every axis together; all axes have one length
+  latin_hypercube,  ///< a zip of axes that were sampled so
+  sobol,            ///< likewise
 };
 
 inline constexpr std::int64_t kMostPoints = 1'000'000'000;

@@ -105,6 +105,34 @@ class Run(ProgramTest):
         self.assertEqual(sorted(self.files()),
                          ["slot.h5", "slot.previous-1.h5", "slot.previous-2.h5", "study.toml"])
 
+    def test_sampled_designs_spread_over_all_axes(self):
+        axes = """\
+[sweep]
+design = "%s"
+samples = 256
+seed = %d
+[sweep.axes]
+"cut.axial_depth_mm" = { from = 0.1, to = 10.0, spacing = "log" }
+"cutter.flutes" = { from = 2, to = 5 }
+"cut.milling" = ["up", "down"]
+"""
+        text = SLOT.replace('milling = "slot"', 'milling = "up"\nradial_depth_mm = 6.0')
+        values = {}
+        for design, seed in (("sobol", 1), ("sobol", 2), ("latin_hypercube", 1)):
+            self.write(text + axes % (design, seed))
+            self.millstudy("run", "study.toml", "-o", f"{design}{seed}.h5")
+            with h5py.File(self.folder / f"{design}{seed}.h5") as file:
+                depth = file["axial_depth_mm"][()]
+                self.assertEqual(file["force_x_mean"].shape, (256,))
+                self.assertEqual(numpy.unique(file["flutes"], return_counts=True)[1].tolist(), [64] * 4)
+                self.assertEqual(file["milling"].asstr()[()].tolist().count("up"), 128)
+            parts = numpy.sort(numpy.floor(numpy.log10(depth / 0.1) / 2.0 * 256.0))
+            self.assertEqual(parts.tolist(), list(range(256)))
+            values[design, seed] = depth.tolist()
+        self.assertEqual(len({str(v) for v in values.values()}), 3)
+        self.assertIn("already done", self.millstudy("run", "study.toml", "-o", "latin_hypercube1.h5").stdout)
+        self.assertIn("another study", self.refused("run", "study.toml", "-o", "sobol1.h5"))
+
     def test_limits_skip_points(self):
         self.write(SLOT + '[sweep.axes]\n"cut.feed_rate_mm_per_min" = [580.0, 1740.0, 2900.0, 2901.0]\n'
                    '[[sweep.where]]\nquantity = "feed_per_tooth_mm"\nmin = 0.03\nmax = 0.1\n')
