@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -19,6 +20,7 @@
 #include "io/result_blocks.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
+#include "sweep/crash_record.h"
 #include "sweep/journal.h"
 
 namespace millstudy::cli {
@@ -255,6 +257,24 @@ void reopen_failed(sweep::Journal& journal, const std::string& result) {
   }
 }
 
+/// A point that has crashed the program twice is not tried a third time.
+void fail_crashed_points(sweep::Journal& journal,
+                         const std::map<std::int64_t, sweep::Crashes>& crashes) {
+  const sweep::JournalHeader& header = journal.contents().header;
+  for (const auto& [point, crash] : crashes) {
+    const std::int64_t within = point - header.first;
+    if (crash.times < 2 || within < 0 || within >= header.count) continue;
+    sweep::Block block = journal.read(within / header.block_size);
+    const std::int64_t i = point - block.first;
+    if (block.status[i] != sweep::Status::not_run) continue;
+    block.status[i] = sweep::Status::failed;
+    block.failures[i] = fmt::format("crashed the program twice ({})", strsignal(crash.signal));
+    journal.append(block, {});
+    fmt::print(stderr, "warning: point {} {}: it is recorded as failed\n", point,
+               block.failures[i]);
+  }
+}
+
 std::int64_t chosen_block_size(const RunSettings& settings, const sweep::Layout& layout,
                                const sweep::EvaluateBlock& evaluate) {
   if (settings.block_size > 0) return settings.block_size;
@@ -285,7 +305,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
                                                         settings.shard, settings.shards);
   const std::string path = settings.output.empty() ? usual : settings.output;
   const std::string journal_path = path + ".journal";
-  std::error_code different;
+  std::error_code different, ignored;
   if (fs::equivalent(path, options.file, different)) {
     throw core::InputError({path, 0}, "is the study itself: give another result file with -o");
   }
@@ -316,11 +336,18 @@ int run(const StudyOptions& options, const RunSettings& settings) {
     }
   }
   { const io::AtomicFile target(path); }  // what cannot be written is refused before the work
-  const std::int64_t block_size =
-      there ? there->header.block_size : chosen_block_size(settings, layout, evaluate);
+  const std::string crash_path = journal_path + ".crashes";
+  if (settings.fresh) fs::remove(crash_path, ignored);
+  const auto crashes = sweep::read_crashes(crash_path);
+  sweep::record_crashes(fs::absolute(crash_path).string());
+  const std::int64_t block_size = there ? there->header.block_size
+                                  : !crashes.empty()
+                                      ? sweep::default_block_size(layout)
+                                      : chosen_block_size(settings, layout, evaluate);
   sweep::Journal journal(journal_path, journal_header(open, layout, settings, block_size),
                          this_process());
   if (settings.failed) reopen_failed(journal, path);
+  fail_crashed_points(journal, crashes);
   tell_what_is_there(journal.contents());
   const double before = journal.contents().seconds;
 
@@ -355,6 +382,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
                 {"points_not_run", layout.points() - progress.points},
                 {"wall_time_s", seconds}});
   journal.remove();
+  fs::remove(crash_path, ignored);
   return print_outcome({"done", path, progress.ok, progress.failed, progress.skipped, seconds,
                         threads, open.hash, ""},
                        options, tally.counts());

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "dynamics/gauss_collocation.h"
 
 namespace millstudy::dynamics {
@@ -104,6 +105,7 @@ void CollocationMap::add_stretch(const DelaySystem& system, double start, double
   const FreeElement free = free_element(system.machine, gauss, h);
   Eigen::MatrixXd gains(mn, mn), damping(mn, mn);
   for (int part = 0; part < parts; ++part) {
+    core::keep_watch();
     Element element{start + part * h, h, {}, Eigen::MatrixXd(mn + n, n + mn)};
     gains.setZero();
     damping.setZero();
@@ -160,6 +162,7 @@ void CollocationMap::add_taps(int element, int node, double time, const DelayedG
 
 void CollocationMap::run(const double* in, std::vector<double>& positions, double* state,
                          const double* force_at_nodes) const {
+  core::keep_watch();
   const Eigen::Index n = states_, m = moving_;
   const std::size_t per_element = m * (nodes_ + 1);
   positions.resize(m * history_ + per_element * elements_.size());

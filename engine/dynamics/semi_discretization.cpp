@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/watch.h"
 #include "dynamics/interval_step.h"
 
 namespace millstudy::dynamics {
@@ -66,6 +67,7 @@ SemiDiscretizedMap::SemiDiscretizedMap(const DelaySystem& system,
     throw core::InputError(fmt::format(
         "intervals = {} are too few: one must not be longer than the shortest delay", intervals_));
   }
+  core::keep_watch();
   const AveragedGains gains = system.averages(intervals_);
   for (const double delay : gains.delays) add_taps(delay / step, settings.order);
   first_tap_.push_back(static_cast<int>(taps_.size()));

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "dynamics/interval_step.h"
 #include "dynamics/simulated_edge.h"
 
@@ -236,6 +237,7 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
   double largest = 0.0;
   if (settings.feed_per_tooth > 0.0) {
     for (int i = 0; i < settle * simulation.steps(); ++i) {
+      if (i % 256 == 0) core::keep_watch();
       largest = std::max(largest, simulation.advance(false).norm());
     }
   }
@@ -248,6 +250,7 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
   bool dead = false;
   const int every = simulation.steps() / kSamples;
   for (int turn = 0; turn < settings.revolutions; ++turn) {
+    core::keep_watch();
     double square = 0.0;
     result.last_turn.clear();
     for (int i = 0; i < simulation.steps(); ++i) {

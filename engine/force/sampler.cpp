@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "force/lanes.h"
 #include "force/nonlinear_force.h"
 #include "force/prepared_edges.h"
@@ -354,6 +355,7 @@ void ForceSampler::sample_nonlinear(int flute, const Coefficients& coefficients,
   const int end = flute == kAllFlutes ? g.edges->cutter().flutes : flute + 1;
   const std::int64_t fresh = std::min(count, steps);
   for (std::int64_t i = 0; i < fresh; ++i) {
+    if (i % 16 == 0) core::keep_watch();
     const std::int64_t n = (((first + i) % steps) + steps) % steps;
     const double phi =
         2.0 * core::kPi * static_cast<double>(n) / static_cast<double>(steps) + direction;

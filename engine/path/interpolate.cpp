@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/watch.h"
 #include "path/arc_length_table.h"
 #include "path/chord_step.h"
 #include "path/parameter_step.h"
@@ -137,10 +138,14 @@ template <class TakeStep>
 Interpolation run(PathWriter& path, const TakeStep& take_step) {
   std::array<ChordStep, 2> steps;
   steps[0].to = path.begin();
-  for (std::size_t now = 0;; now = 1 - now) {
-    const Stand& stand = steps[now].to;
-    ChordStep* next = ::new (&steps[1 - now]) ChordStep(take_step(stand));
-    if (!path.add(stand, *next)) return path.take();
+  while (true) {
+    core::keep_watch();
+    for (std::size_t i = 0; i < 1024; ++i) {
+      const std::size_t now = i % 2;
+      const Stand& stand = steps[now].to;
+      ChordStep* next = ::new (&steps[1 - now]) ChordStep(take_step(stand));
+      if (!path.add(stand, *next)) return path.take();
+    }
   }
 }
 

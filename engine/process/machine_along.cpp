@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/watch.h"
 #include "process/chord.h"
 #include "process/path_engagement.h"
 
@@ -78,6 +79,7 @@ PathForces machine_along(const path::Interpolation& path, const force::ForceSamp
   double width = 0.0;
   ArcSet last_arcs;
   for (std::int64_t i = 0; i < periods; ++i) {
+    if (i % 16 == 0) core::keep_watch();
     const Chord chord = chord_of(path, i, rounding, direction);
     direction = chord.direction;
     const force::Feed feed{chord.length / teeth_per_period, direction, chord.slope};  // (M1), (M3)

@@ -14,6 +14,7 @@ std::span<const Key> general_keys() {
       {"schema_version", kInteger, "", {1.0, 1.0}, Required{}, "version of the study file: 1"},
       {"study.name", kText, "", {}, Required{}, "names the result file, NAME.h5: letters, digits, _ - + and dots"},
       {"study.kind", kText, "", {}, Required{}, "what is computed: path, force, path_force, stability or finish"},
+      {"study.point_time_limit_s", kNumber, "s", up_to(1e9), Optional{}, "a point that takes longer fails; without, none does"},
       {"study.description", kText, "", {}, "", "the question, in a sentence"},
   };
   return keys;

@@ -303,6 +303,8 @@ class Resolver {
     }
     study_.name = text_setting("study.name");
     study_.description = text_setting("study.description");
+    const auto limit = settings_.find("study.point_time_limit_s");
+    if (limit != settings_.end()) study_.point_time_limit = std::get<double>(limit->second);
   }
 
   /// Empty where the key is missing or at fault; that is reported elsewhere.

@@ -47,6 +47,7 @@ struct Limit {
 struct Study {
   std::string name;
   std::string description;
+  double point_time_limit = 0.0;  ///< [s]; 0: none
   const Kind* kind = nullptr;
   Case base;
   Outputs outputs;

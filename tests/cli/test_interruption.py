@@ -70,6 +70,7 @@ class Interruption(ProgramTest):
         self.millstudy("run", "study.toml", "-o", "R.h5")
         old = (self.folder / "R.h5").read_bytes()
         process = self.start(LONG, "--fresh")
+        time.sleep(0.5)
         self.interrupt(process)
         self.assertEqual((self.folder / "R.h5").read_bytes(), old)
         self.assertEqual(sorted(self.files()), ["R.h5", "R.h5.journal", "study.toml"])

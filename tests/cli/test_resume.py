@@ -157,6 +157,76 @@ class Failures(ResumeTest):
         self.millstudy("run", "study.toml", "-o", "r.h5", code=3)
 
 
+class Crashes(ResumeTest):
+    @unittest.skipIf(SLOW > 1.0, "sanitizers have signal handlers of their own")
+    def test_a_point_that_crashes_twice_is_a_failed_point(self):
+        # Of a third of a second each, on one thread: the signal comes while the first of those left is computed.
+        self.write(SLOT.replace("angular_steps = 90", 'angular_steps = 1000\nrule = "discs"\ndiscs = 1_000_000') +
+                   '[sweep.axes]\n"cutter.helix_deg" = [0.0, 10.0, 20.0, 30.0]\n')
+        options = ("-o", "r.h5", "--threads", "1", "--block-size", "2")
+        for crash in (1, 2):
+            process = self.start(*options)
+            while not (self.folder / "r.h5.journal").exists():
+                self.assertIsNone(process.poll())
+                time.sleep(0.002)
+            time.sleep(0.1)
+            process.send_signal(signal.SIGSEGV)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, -signal.SIGSEGV)
+            self.assertEqual((self.folder / "r.h5.journal.crashes").read_text(), "0 11\n" * crash)
+        done = self.millstudy("run", "study.toml", *options, code=3)
+        self.assertIn("warning: point 0 crashed the program twice (Segmentation fault): it is recorded as failed\n",
+                      done.stderr)
+        self.assertIn("done: 4 points, 3 ok, 1 failed, 0 skipped\n", done.stdout)
+        self.assertIn("  1 failed: crashed the program twice (Segmentation fault)\n", done.stdout)
+        self.assertEqual(sorted(self.files()), ["r.h5", "study.toml"])
+        # It can be tried again.
+        again = self.millstudy("run", "study.toml", *options, "--failed")
+        self.assertIn("done: 4 points, 4 ok, 0 failed, 0 skipped\n", again.stdout)
+
+    def test_a_point_that_takes_too_long_is_a_failed_point(self):
+        text = SLOT.replace('kind = "force"', 'kind = "stability"\npoint_time_limit_s = 0.2') + """\
+[[modes.x]]
+frequency_Hz = 900.0
+damping_ratio = 0.01
+mass_kg = 0.04
+[stability]
+method = "time_domain"
+largest_depth_mm = 1.0
+[sweep.axes]
+"stability.revolutions" = [10, 1_000_000]
+"""
+        self.write(text.replace("[numerics]\nangular_steps = 90\n", "").replace("axial_depth_mm = 0.5", "axial_depth_mm = 0.06")
+                   .replace("damping_ratio = 0.01", "damping_ratio = 1e-7"))
+        begin = time.monotonic()
+        done = self.millstudy("run", "study.toml", "-o", "r.h5", code=3)
+        self.assertIn(" failed: took longer than study.point_time_limit_s\n", done.stdout)
+        self.assertLess(time.monotonic() - begin, 5.0 * SLOW)
+
+    def test_ctrl_c_does_not_wait_for_a_point(self):
+        text = SLOT.replace('kind = "force"', 'kind = "stability"') + """\
+[[modes.x]]
+frequency_Hz = 900.0
+damping_ratio = 1e-7
+mass_kg = 0.04
+[stability]
+method = "time_domain"
+largest_depth_mm = 1.0
+revolutions = 1_000_000
+"""
+        self.write(text.replace("[numerics]\nangular_steps = 90\n", "").replace("axial_depth_mm = 0.5", "axial_depth_mm = 0.06"))
+        process = self.start("-o", "r.h5")
+        while not (self.folder / "r.h5.journal").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        _, err = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begin, 2.0 * SLOW)
+        self.assertEqual(process.returncode, 4, err)
+
+
 class Shards(ResumeTest):
     def test_merged_they_are_the_whole(self):
         self.write(RADIAL + "[output]\nharmonics = 2\n")
