@@ -237,6 +237,19 @@ bool forget_failures(sweep::Block& block) {
   return any;
 }
 
+/// @throws core::InputError if a result is not of this program and instruction set
+void check_same_program(const std::string& path) {
+  const io::ResultSummary there = io::read_result_summary(path).value_or(io::ResultSummary{});
+  const Build made = build();
+  if (there.text("isa") == made.isa && there.text("git_revision") == made.git_revision &&
+      there.text("millstudy_version") == made.version) {
+    return;
+  }
+  throw core::InputError({path, 0},
+                         "was computed by another program or instruction set: points computed now "
+                         "would differ in their last digits; use --fresh");
+}
+
 /// Makes failed points of a journal pending again; of an empty one, with those of a finished
 /// result in it.
 void reopen_failed(sweep::Journal& journal, const std::string& result) {
@@ -330,6 +343,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
     if (outcome && !(settings.failed && outcome->failed > 0)) {
       return print_outcome(*outcome, options, {});
     }
+    if (settings.failed && outcome) check_same_program(path);
     if (settings.failed && !outcome) {
       throw core::InputError({path, 0},
                              "there is no result whose failed points --failed could repeat");

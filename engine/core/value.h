@@ -21,7 +21,8 @@ struct Value {
   using Array = std::vector<Value>;
   using Table = std::vector<Member>;
 
-  std::variant<bool, std::int64_t, double, std::string, Array, Table> data = false;
+  std::variant<bool, std::int64_t, double, std::string, Array, Table>
+      data;  ///< false where nothing is given
   Place place;
 
   bool is_number() const;

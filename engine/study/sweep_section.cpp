@@ -8,13 +8,13 @@
 
 #include "study/quantity.h"
 #include "study/suggest.h"
+#include "study/sweep_design.h"
 #include "sweep/sampling.h"
 
 namespace millstudy::study {
 namespace {
 
 constexpr double kLongestAxis = 1e6;
-constexpr std::int64_t kMostSamples = 10'000'000;
 
 class SweepReader {
  public:
@@ -23,7 +23,7 @@ class SweepReader {
 
   void read(const core::Value& section) {
     if (!section.is_table()) return faults_.add(section.place, "sweep must be a table");
-    read_design(section);
+    design_ = read_design(section, study_.notes, faults_);
     for (const auto& [key, value] : section.table()) {
       if (key == "design" || key == "samples" || key == "seed") {
         continue;
@@ -51,85 +51,12 @@ class SweepReader {
   }
 
  private:
-  void read_design(const core::Value& section) {
-    constexpr std::array<std::string_view, 4> kDesigns = {"grid", "zip", "latin_hypercube",
-                                                          "sobol"};
-    if (const core::Value* design = section.find("design")) {
-      const auto* at = design->is_string()
-                           ? std::find(kDesigns.begin(), kDesigns.end(), design->string())
-                           : kDesigns.end();
-      if (at == kDesigns.end()) {
-        faults_.add(design->place, design->is_string()
-                                       ? fmt::format("sweep.design = \"{}\" must be one of {}",
-                                                     design->string(), fmt::join(kDesigns, ", "))
-                                       : fmt::format("sweep.design must be a string: one of {}",
-                                                     fmt::join(kDesigns, ", ")));
-      } else {
-        design_ = static_cast<sweep::Design>(at - kDesigns.begin());
-      }
-    }
-    const core::Value* samples = section.find("samples");
-    const core::Value* seed = section.find("seed");
-    if (is_sampled()) {
-      if (samples) {
-        samples_ = whole_number(*samples, "sweep.samples", 1, kMostSamples);
-      } else {
-        faults_.add(section.place, "sweep.samples is missing: the number of points to sample");
-      }
-      if (seed) seed_ = whole_number(*seed, "sweep.seed", 0, 1LL << 53);
-      if (design_ == sweep::Design::sobol && samples_ > 0 && (samples_ & (samples_ - 1)) != 0) {
-        study_.notes.push_back(
-            {samples->place, fmt::format("sweep.samples = {} is no power of two: a sobol design is "
-                                         "balanced for those only",
-                                         samples_)});
-      }
-      return;
-    }
-    for (const auto& [value, name] : {std::pair{samples, "samples"}, std::pair{seed, "seed"}}) {
-      if (value) {
-        faults_.add(value->place, fmt::format("sweep.{} is for the designs latin_hypercube and "
-                                              "sobol: leave it out",
-                                              name));
-      }
-    }
-  }
-
-  std::int64_t whole_number(const core::Value& value, std::string_view name, std::int64_t least,
-                            std::int64_t most) {
-    const auto* number = std::get_if<std::int64_t>(&value.data);
-    if (number && *number >= least && *number <= most) return *number;
-    faults_.add(value.place,
-                fmt::format("{} must be a whole number from {} to {}", name, least, most));
-    return 0;
-  }
-
-  bool is_sampled() const {
-    return design_ == sweep::Design::latin_hypercube || design_ == sweep::Design::sobol;
-  }
-
-  /// For the study hash.
-  std::string how_sampled() const {
-    return fmt::format("{} {} samples, seed {}, dimension {},",
-                       design_ == sweep::Design::sobol ? "sobol" : "latin_hypercube", samples_,
-                       seed_, study_.axes.size());
-  }
-
-  /// Where the axis that is read now stands at each point, between 0 and 1.
-  std::vector<double> sampled() const {
-    const auto dimension = static_cast<int>(study_.axes.size());
-    if (design_ == sweep::Design::sobol && dimension >= sweep::kSobolDimensions) {
-      return std::vector<double>(static_cast<std::size_t>(samples_), 0.5);  // make_space() tells
-    }
-    return design_ == sweep::Design::sobol ? sweep::sobol(samples_, dimension, seed_)
-                                           : sweep::latin_hypercube(samples_, dimension, seed_);
-  }
-
   /// Of the values of a list each point takes one.
   template <class T>
   void take_sampled(std::vector<T>& values) const {
     if (values.empty()) return;
     std::vector<T> taken;
-    for (const double u : sampled()) {
+    for (const double u : design_.places(study_.axes.size())) {
       taken.push_back(values[static_cast<std::size_t>(u * static_cast<double>(values.size()))]);
     }
     values = std::move(taken);
@@ -145,9 +72,9 @@ class SweepReader {
     if (from >= to) {
       fail(range, fmt::format("sweep.axes: {}: from = {} must be < to = {}", key.path, from, to));
     }
-    axis.sampled =
-        fmt::format("{} from {} to {}{}", how_sampled(), from, to, log ? " in logarithms" : "");
-    for (const double u : sampled()) {
+    axis.sampled = fmt::format("{} from {} to {}{}", design_.how(study_.axes.size()), from, to,
+                               log ? " in logarithms" : "");
+    for (const double u : design_.places(study_.axes.size())) {
       if (key.type == KeyType::integer) {
         axis.numbers.push_back(from + std::floor(u * (to - from + 1.0)));
       } else {
@@ -216,8 +143,9 @@ class SweepReader {
       faults.collect([&] { add_value(key, item, axis); });
     }
     faults.throw_if_any();
-    if (!is_sampled()) return;
-    axis.sampled = fmt::format("{} of {}", how_sampled(), fmt::join(axis.numbers, " "));
+    if (!design_.is_sampled()) return;
+    axis.sampled =
+        fmt::format("{} of {}", design_.how(study_.axes.size()), fmt::join(axis.numbers, " "));
     for (std::size_t i = 0; i < axis.labels.size(); ++i) {
       axis.sampled += fmt::format(" [{}", axis.labels[i]);
       for (const Assignment& assignment : axis.settings[i]) {
@@ -294,13 +222,13 @@ class SweepReader {
     }
     const double from = range_member(key, range, "from");
     const double to = range_member(key, range, "to");
-    const double count = is_sampled() ? 2.0 : range_member(key, range, "count");
+    const double count = design_.is_sampled() ? 2.0 : range_member(key, range, "count");
     const bool log = logarithmic(key, range);
     if (count != std::nearbyint(count) || count < 1.0) {
       fail(*range.find("count"),
            fmt::format("sweep.axes: {}: count = {} must be a whole number >= 1", key.path, count));
     }
-    if (!is_sampled()) check_length(key, *range.find("count"), count);
+    if (!design_.is_sampled()) check_length(key, *range.find("count"), count);
     if (count == 1.0 && from != to) {
       fail(*range.find("count"),
            fmt::format("sweep.axes: {}: count = 1 leaves out to = {}: give 2 or more", key.path,
@@ -313,7 +241,7 @@ class SweepReader {
     ends.collect([&] { checked_setting(key, *range.find("from")); });
     ends.collect([&] { checked_setting(key, *range.find("to")); });
     ends.throw_if_any();
-    if (is_sampled()) return sample_range(key, range, from, to, log, axis);
+    if (design_.is_sampled()) return sample_range(key, range, from, to, log, axis);
     const double last = count - 1.0;
     for (double i = 0.0; i <= last; ++i) {
       // Multiplied before it is divided: 600 to 3000 in 25 steps gives 700, not 699.9999999999999.
@@ -395,23 +323,21 @@ class SweepReader {
   }
 
   void make_space(const core::Place& place) {
-    if (design_ == sweep::Design::grid) check_repeats();
-    if (design_ == sweep::Design::sobol && study_.axes.size() > sweep::kSobolDimensions) {
+    if (design_.design == sweep::Design::grid) check_repeats();
+    if (design_.design == sweep::Design::sobol && study_.axes.size() > sweep::kSobolDimensions) {
       return faults_.add(place, fmt::format("sweep.axes has {} axes: a sobol design has {} at most",
                                             study_.axes.size(), sweep::kSobolDimensions));
     }
     std::vector<std::int64_t> lengths;
     for (const Axis& axis : study_.axes) lengths.push_back(static_cast<std::int64_t>(axis.size()));
     try {
-      study_.space = sweep::ParameterSpace(design_, std::move(lengths));
+      study_.space = sweep::ParameterSpace(design_.design, std::move(lengths));
     } catch (const core::InputError& error) {
       faults_.add(place, error.what());
     }
   }
 
-  sweep::Design design_ = sweep::Design::grid;
-  std::int64_t samples_ = 0;
-  std::int64_t seed_ = 1;
+  SweepDesign design_;
   const FileSettings& read_file_;
   Study& study_;
   Given& given_;

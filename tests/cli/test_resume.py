@@ -140,6 +140,14 @@ class Failures(ResumeTest):
         self.assertIn("done: 2,000 points, 1,000 ok, 1,000 failed, 0 skipped\n", done.stdout)
         self.same("whole.h5", "r.h5")
 
+    def test_points_of_another_program_are_not_mixed_in(self):
+        self.write(RADIAL)
+        self.millstudy("run", "study.toml", "-o", "r.h5", code=3)
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            file.attrs["isa"] = "x86-64 of the future"
+        self.assertIn("was computed by another program or instruction set",
+                      self.refused("run", "study.toml", "-o", "r.h5", "--failed"))
+
     def test_nothing_to_repeat(self):
         self.write(SLOT)
         self.assertEqual(self.refused("run", "study.toml", "-o", "r.h5", "--failed"),

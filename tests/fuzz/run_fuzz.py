@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Builds the fuzzers of the readers of traces and journals with clang++, runs the kept corpus and a few seconds of new inputs.
+"""Builds the fuzzers of the readers of traces, journals and curves with clang++, runs the kept corpus and a few seconds of new inputs.
 
 Usage: run_fuzz.py BUILD_FOLDER [SECONDS [FORMAT ...]]. Without clang++ it is skipped (exit 77). What makes a reader
 fail is left in BUILD_FOLDER/found: once it is mended, it belongs in corpus/<format>. matio and HDF5 are not
@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-FORMATS = ("dynoware", "hdf5", "journal", "labview", "matlab", "table", "tdms")
+FORMATS = ("curve", "dynoware", "hdf5", "journal", "labview", "matlab", "table", "tdms")
 SKIPPED = 77
 
 
