@@ -13,7 +13,10 @@
 namespace millstudy::cli {
 namespace {
 
-constexpr std::int64_t kAtOnce = 1 << 14;  // points in memory
+/// Points in memory.
+std::int64_t at_once(const sweep::Layout& layout) {
+  return layout.traces ? 256 : 1 << 14;
+}
 
 std::string text_of(const sweep::Layout& layout, std::string_view name) {
   for (const auto& [key, value] : layout.attributes) {
@@ -156,8 +159,9 @@ int merge(const std::string& output, const std::vector<std::string>& files) {
   const sweep::Layout layout = layout_of_all(parts);
   const auto writer = io::make_result_writer(output, layout);
   Joined joined(parts);
-  for (std::int64_t first = 0; first < layout.points(); first += kAtOnce) {
-    writer->write(joined.read(first, std::min(kAtOnce, layout.points() - first)));
+  const std::int64_t step = at_once(layout);
+  for (std::int64_t first = 0; first < layout.points(); first += step) {
+    writer->write(joined.read(first, std::min(step, layout.points() - first)));
   }
   std::vector<core::Fault> faults;
   const auto check = [&](const Ranges& points, const char* what) {

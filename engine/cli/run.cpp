@@ -259,7 +259,7 @@ void reopen_failed(sweep::Journal& journal, const std::string& result) {
     for (std::int64_t i = 0; i < header.blocks(); ++i) {
       sweep::Block block = blocks.read(header.first_of(i), header.count_of(i));
       forget_failures(block);
-      journal.append(block, {});
+      if (!block.values.empty()) journal.append(block, {});
     }
     return;
   }

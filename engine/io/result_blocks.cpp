@@ -115,7 +115,7 @@ const sweep::Layout& ResultBlocks::layout() const {
 sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
   const hdf5::QuietErrors quiet;
   const Open& open = *open_;
-  sweep::Block block(first, count, open.values.size(), open.layout.traces);
+  sweep::Block block(first, count, 0, false);
   try {
     const std::vector<double> status =
         open.table.numbers(open.column(PointColumn::Kind::status), first, count);
@@ -126,6 +126,8 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
     const bool any = std::any_of(block.status.begin(), block.status.end(),
                                  [](sweep::Status one) { return one != sweep::Status::not_run; });
     if (!any) return block;
+    block.values.resize(open.values.size() * static_cast<std::size_t>(count));
+    if (open.traces) block.traces.resize(static_cast<std::size_t>(count));
     for (std::size_t c = 0; c < open.values.size(); ++c) {
       const std::vector<double> numbers = open.table.numbers(*open.values[c], first, count);
       std::copy(numbers.begin(), numbers.end(),

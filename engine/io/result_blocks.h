@@ -21,7 +21,8 @@ class ResultBlocks {
   /// All that the file says but the results.
   const sweep::Layout& layout() const;
 
-  /// Points first .. first + count - 1, bit for bit as they were written.
+  /// Points first .. first + count - 1, bit for bit as they were written; without values and traces
+  /// where none of them was run.
   /// @throws core::InputError if the file is damaged
   sweep::Block read(std::int64_t first, std::int64_t count) const;
 
