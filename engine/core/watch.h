@@ -44,7 +44,7 @@ class Watch {
 
 inline constexpr const char* kTooLate = "took longer than study.point_time_limit_s";
 
-/// Called by computations between steps of microseconds and more. Costs 1 ns, 25 with a limit.
+/// Called by computations between steps of microseconds and more: with a limit it reads the clock.
 /// @throws Interrupted; CaseError when the time is over
 inline void keep_watch() {
   const Watch* watch = Watch::current_;

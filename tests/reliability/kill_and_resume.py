@@ -17,28 +17,10 @@ import time
 
 import h5py
 
-STUDY = """\
-schema_version = 1
-[study]
-name = "killed"
-kind = "force"
-[cutter]
-shape = "flat"
-diameter_mm = 12.0
-flutes = 2
-helix_deg = 30.0
-[coefficients]
-Ktc_N_per_mm2 = 2172.0
-Krc_N_per_mm2 = 850.0
-Kac_N_per_mm2 = 726.0
-Kte_N_per_mm = 17.3
-Kre_N_per_mm = 7.8
-Kae_N_per_mm = 6.7
-[numerics]
-angular_steps = 1440
-[cut]
-milling = "slot"
-spindle_speed_rpm = 14500.0
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from program import SLOT  # noqa: E402
+
+STUDY = SLOT.replace("angular_steps = 90", "angular_steps = 1440") + """\
 [sweep.axes]
 "cut.axial_depth_mm" = { from = 0.1, to = 2.0, count = 400 }
 "cut.feed_rate_mm_per_min" = { from = 600.0, to = 3000.0, count = 500 }
