@@ -197,7 +197,6 @@ bool Journal::is_taken(const std::string& path) {
 Remainder remainder(const Journal& journal) {
   const JournalContents& contents = journal.contents();
   Remainder left;
-  left.first_point = contents.header.first;
   left.points = contents.header.count;
   left.blocks = journal.pending();
   left.done.ok = contents.ok;

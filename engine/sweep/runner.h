@@ -25,7 +25,6 @@ struct Progress {
 
 /// Blocks of a study that are left to do, of all sessions together.
 struct Remainder {
-  std::int64_t first_point = 0;      ///< of block 0
   std::int64_t points = 0;           ///< of all its blocks
   std::vector<std::int64_t> blocks;  ///< to compute, ascending
   Progress done;                     ///< what the others have
