@@ -6,8 +6,7 @@ set -euo pipefail
 packages=(
   ca-certificates clang cmake g++ git libclang-rt-14-dev ninja-build pkg-config
   libbenchmark-dev libceres-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev libhdf5-dev libmatio-dev
-  libssl-dev libtbb-dev
-  libtomlplusplus-dev nlohmann-json3-dev
+  libopenmpi-dev libssl-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev openmpi-bin
   python3 python3-h5netcdf python3-h5py python3-matplotlib python3-netcdf4 python3-scipy python3-xarray
   netcdf-bin octave
 )

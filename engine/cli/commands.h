@@ -27,6 +27,7 @@ struct RunSettings {
   bool quiet = false;
   std::int64_t block_size = 0;
   bool failed = false;  ///< compute failed points again
+  bool extend = false;  ///< use points of a result with other values on its axes
   int shard = 0;        ///< which of so many parts of the study, from 1; 0: all of it
   int shards = 0;
   std::int64_t max_failures = -1;  ///< end early beyond so many; -1: never
@@ -48,12 +49,20 @@ struct ExportOptions {
   std::int64_t point = -1;  ///< whose trace is written; -1: the table of all points
 };
 
+struct SensitivityOptions {
+  std::string result;
+  std::vector<std::string> variables;  ///< empty: all
+  std::string output;                  ///< .csv; empty: none
+  bool json = false;
+};
+
 // Each verb prints its result to stdout and returns the exit code; bad input is thrown.
 int plan(const StudyOptions& options);
 int run(const StudyOptions& options, const RunSettings& settings);
 int fit(const FitOptions& options);
 int status(const std::string& result, bool json);
 int merge(const std::string& output, const std::vector<std::string>& parts);
+int sensitivity(const SensitivityOptions& options);
 int export_result(const ExportOptions& options);
 int print_keys(const std::string& kind, bool markdown);
 

@@ -11,7 +11,7 @@
 #include "cli/fit_table.h"
 #include "cli/provenance.h"
 #include "cli/stop_signal.h"
-#include "core/ordered_parallel.h"
+#include "core/parallel_items.h"
 #include "core/units.h"
 #include "identify/choose_model.h"
 #include "identify/conditioning.h"

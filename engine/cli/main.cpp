@@ -104,7 +104,13 @@ int main(int argc, char** argv) {
       ->type_name("R.h5");
   run->add_flag("--fresh", settings.fresh, "compute again; an existing result is moved aside");
   run->add_flag("--failed", settings.failed, "compute failed points again")->excludes("--fresh");
-  run->add_option("--shard", shard, "compute part k of K only, for merge")->type_name("k/K");
+  run->add_flag("--extend", settings.extend,
+                "axes have other values: use the points that are there")
+      ->excludes("--fresh")
+      ->excludes("--failed");
+  run->add_option("--shard", shard, "compute part k of K only, for merge")
+      ->type_name("k/K")
+      ->excludes("--extend");
   run->add_option("--block-size", settings.block_size, "points per block (default: chosen)")
       ->check(CLI::Range(1, 1'000'000));
   run->add_option("--max-failures", settings.max_failures, "end early beyond so many failed points")
@@ -139,6 +145,15 @@ int main(int argc, char** argv) {
   merge->add_option("output", merged, "result file")->required()->type_name("OUT.h5");
   merge->add_option("parts", parts, "results of the parts")->required()->type_name("SHARD.h5");
 
+  cli::SensitivityOptions indices;
+  CLI::App* sensitivity = app.add_subcommand(
+      "sensitivity", "Sobol' indices: which axes of a saltelli design make a variable vary");
+  sensitivity->add_option("result", indices.result, "result file")->required()->type_name("R.h5");
+  sensitivity->add_option("--variable", indices.variables, "only this one; repeatable")
+      ->allow_extra_args(false);
+  sensitivity->add_option("-o,--output", indices.output, "also write a table")->type_name("T.csv");
+  sensitivity->add_flag("--json", indices.json, "print JSON");
+
   cli::ExportOptions table;
   CLI::App* exporting = app.add_subcommand("export", "write a result as a table");
   exporting->add_option("result", table.result, "result file")->required()->type_name("R.h5");
@@ -159,15 +174,15 @@ int main(int argc, char** argv) {
   app.failure_message(usage_fault);
   if (argc < 2) {
     std::fputs(
-        "millstudy: give one of plan, run, status, merge, fit, export, keys; see millstudy "
-        "--help\n",
+        "millstudy: give one of plan, run, status, merge, fit, sensitivity, export, keys; see "
+        "millstudy --help\n",
         stderr);
     return cli::kBadInput;
   }
   if (const auto word = unknown_verb(app, argc, argv)) {
     std::fprintf(stderr,
-                 "millstudy: %s is not one of plan, run, status, merge, fit, export, keys; see "
-                 "millstudy --help\n",
+                 "millstudy: %s is not one of plan, run, status, merge, fit, sensitivity, export, "
+                 "keys; see millstudy --help\n",
                  word->c_str());
     return cli::kBadInput;
   }
@@ -179,6 +194,7 @@ int main(int argc, char** argv) {
   }
   cli::open_standard_streams();
   cli::report_full_disk_as_error();
+  cli::keep_freed_memory();
   const int code = guarded([&] {
     if (*plan) return cli::plan(study);
     if (*run) {
@@ -188,6 +204,7 @@ int main(int argc, char** argv) {
     if (*fit) return cli::fit(fitting);
     if (*status) return cli::status(watched, study.json);
     if (*merge) return cli::merge(merged, parts);
+    if (*sensitivity) return cli::sensitivity(indices);
     if (*exporting) return cli::export_result(table);
     return cli::print_keys(kind, markdown);
   });

@@ -2,6 +2,7 @@
 // The verb merge: results of the parts of one study become the result of all of it.
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
 
 #include "cli/commands.h"
@@ -15,7 +16,15 @@ namespace {
 
 /// Points in memory.
 std::int64_t at_once(const sweep::Layout& layout) {
-  return layout.traces ? 256 : 1 << 14;
+  return layout.traces ? 256 : 1 << 16;
+}
+
+std::optional<std::int64_t> number_of(const sweep::Layout& layout, std::string_view name) {
+  for (const auto& [key, value] : layout.attributes) {
+    const auto* number = std::get_if<std::int64_t>(&value);
+    if (key == name && number) return *number;
+  }
+  return std::nullopt;
 }
 
 std::string text_of(const sweep::Layout& layout, std::string_view name) {
@@ -81,23 +90,52 @@ struct Counts {
   std::int64_t ok = 0, failed = 0, skipped = 0;
 };
 
+/// A part of a study, and the points first .. end - 1 that it is of.
+struct Part {
+  explicit Part(const std::string& file) : result(file) {
+    const sweep::Layout& layout = result.layout();
+    first = number_of(layout, "shard_first_point").value_or(0);
+    end = first + number_of(layout, "shard_points").value_or(layout.points());
+  }
+
+  io::ResultBlocks result;
+  std::int64_t first;
+  std::int64_t end;
+};
+
+/// Where the points from `first` on are those of other parts: a part is read in few pieces, for each
+/// piece costs the unpacking of all chunks that it touches.
+std::int64_t next_border(const std::vector<Part>& parts, std::int64_t first, std::int64_t points) {
+  std::int64_t border = points;
+  for (const Part& part : parts) {
+    for (const std::int64_t one : {part.first, part.end}) {
+      if (one > first) border = std::min(border, one);
+    }
+  }
+  return border;
+}
+
 /// The points of all parts; who has a point that another has too is told.
 class Joined {
  public:
-  explicit Joined(const std::vector<io::ResultBlocks>& parts) : parts_(parts) {}
+  explicit Joined(const std::vector<Part>& parts) : parts_(parts) {}
 
   sweep::Block read(std::int64_t first, std::int64_t count) {
-    const sweep::Layout& layout = parts_[0].layout();
+    const sweep::Layout& layout = parts_[0].result.layout();
     sweep::Block block(first, count, layout.columns.size(), layout.traces);
-    for (const io::ResultBlocks& part : parts_) {
-      sweep::Block own = part.read(first, count);
-      for (std::int64_t i = 0; i < count; ++i) {
-        if (own.status[i] == sweep::Status::not_run) continue;
+    for (const Part& part : parts_) {
+      const std::int64_t from = std::max(first, part.first);
+      const std::int64_t to = std::min(first + count, part.end);
+      if (from >= to) continue;
+      sweep::Block own = part.result.read(from, to - from);
+      for (std::int64_t k = 0; k < own.count; ++k) {
+        const std::int64_t i = from - first + k;
+        if (own.status[k] == sweep::Status::not_run) continue;
         if (block.status[i] != sweep::Status::not_run) {
           twice_.add(first + i);
           continue;
         }
-        take(own, block, i);
+        take(own, k, block, i);
       }
     }
     for (std::int64_t i = 0; i < count; ++i) {
@@ -113,33 +151,34 @@ class Joined {
   const Counts& counts() const { return counts_; }
 
  private:
-  static void take(sweep::Block& from, sweep::Block& to, std::int64_t i) {
-    to.status[i] = from.status[i];
-    to.failures[i] = std::move(from.failures[i]);
+  static void take(sweep::Block& from, std::int64_t k, sweep::Block& to, std::int64_t i) {
+    to.status[i] = from.status[k];
+    to.failures[i] = std::move(from.failures[k]);
     const auto columns = from.values.size() / static_cast<std::size_t>(from.count);
-    for (std::size_t c = 0; c < columns; ++c) to.value(c, i) = from.value(c, i);
-    if (!to.traces.empty()) to.traces[i] = std::move(from.traces[i]);
+    for (std::size_t c = 0; c < columns; ++c) to.value(c, i) = from.value(c, k);
+    if (!to.traces.empty()) to.traces[i] = std::move(from.traces[k]);
   }
 
-  const std::vector<io::ResultBlocks>& parts_;
+  const std::vector<Part>& parts_;
   Ranges twice_, missing_;
   Counts counts_;
 };
 
 /// Wall time and shard are those of parts.
-sweep::Layout layout_of_all(const std::vector<io::ResultBlocks>& parts) {
-  sweep::Layout layout = parts[0].layout();
-  const std::set<std::string> own = {"shard",          "points_ok",      "points_failed",
-                                     "points_skipped", "points_not_run", "wall_time_s"};
+sweep::Layout layout_of_all(const std::vector<Part>& parts) {
+  sweep::Layout layout = parts[0].result.layout();
+  const std::set<std::string> own = {"shard",          "shard_first_point", "shard_points",
+                                     "points_ok",      "points_failed",     "points_skipped",
+                                     "points_not_run", "wall_time_s"};
   std::erase_if(layout.attributes,
                 [&](const sweep::Attribute& attribute) { return own.contains(attribute.first); });
   return layout;
 }
 
-double wall_time(const std::vector<io::ResultBlocks>& parts) {
+double wall_time(const std::vector<Part>& parts) {
   double sum = 0.0;
-  for (const io::ResultBlocks& part : parts) {
-    for (const auto& [name, value] : part.layout().attributes) {
+  for (const Part& part : parts) {
+    for (const auto& [name, value] : part.result.layout().attributes) {
       const double* seconds = std::get_if<double>(&value);
       if (name == "wall_time_s" && seconds) sum += *seconds;
     }
@@ -150,18 +189,19 @@ double wall_time(const std::vector<io::ResultBlocks>& parts) {
 }  // namespace
 
 int merge(const std::string& output, const std::vector<std::string>& files) {
-  std::vector<io::ResultBlocks> parts;
+  std::vector<Part> parts;
   for (const std::string& file : files) {
     if (file == output) throw core::InputError({file, 0}, "is the output of the merge itself");
     parts.emplace_back(file);
-    check_same(parts.front(), parts.back());
+    check_same(parts.front().result, parts.back().result);
   }
   const sweep::Layout layout = layout_of_all(parts);
   const auto writer = io::make_result_writer(output, layout);
   Joined joined(parts);
   const std::int64_t step = at_once(layout);
-  for (std::int64_t first = 0; first < layout.points(); first += step) {
-    writer->write(joined.read(first, std::min(step, layout.points() - first)));
+  for (std::int64_t first = 0, end = 0; first < layout.points(); first = end) {
+    end = std::min(first + step, next_border(parts, first, layout.points()));
+    writer->write(joined.read(first, end - first));
   }
   std::vector<core::Fault> faults;
   const auto check = [&](const Ranges& points, const char* what) {

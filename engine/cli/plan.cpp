@@ -7,7 +7,7 @@
 #include "cli/measure.h"
 #include "cli/open_study.h"
 #include "cli/progress.h"
-#include "core/ordered_parallel.h"
+#include "core/parallel_items.h"
 #include "io/result_size.h"
 
 namespace millstudy::cli {

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/extension.h"
+#include "cli/join_team.h"
 #include "cli/journal_sink.h"
 #include "cli/measure.h"
 #include "cli/open_study.h"
@@ -13,12 +15,15 @@
 #include "cli/provenance.h"
 #include "cli/run_journal.h"
 #include "cli/stop_signal.h"
+#include "cli/team_run.h"
 #include "cli/version.h"
 #include "core/error.h"
-#include "core/ordered_parallel.h"
+#include "core/parallel_items.h"
 #include "io/atomic_file.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
+#include "study/sweep_design.h"
+#include "sweep/shared_run.h"
 
 namespace millstudy::cli {
 namespace {
@@ -59,10 +64,14 @@ std::vector<sweep::Attribute> origin(const OpenStudy& open, const StudyOptions& 
       {"name", open.study.name},
       {"kind", std::string(open.study.kind->name)},
       {"schema_version", std::int64_t{1}},
+      {"design", std::string(study::name_of(open.study.space.design()))},
       {"study", open.text},
       {"overrides", overrides},
       {"study_hash", open.hash},
   };
+  for (sweep::Attribute& attribute : extension_attributes(open.study)) {
+    attributes.push_back(std::move(attribute));
+  }
   for (sweep::Attribute& attribute : provenance(threads)) {
     attributes.push_back(std::move(attribute));
   }
@@ -112,6 +121,11 @@ int print_outcome(const Outcome& outcome, const StudyOptions& options,
   return outcome.failed > 0 ? kPointsFailed : kDone;
 }
 
+bool is_of_another_study(const std::string& path, const OpenStudy& open) {
+  const std::optional<io::ResultSummary> summary = io::read_result_summary(path);
+  return summary && summary->text("study_hash") != open.hash;
+}
+
 /// A finished result of this study, if the file is one.
 /// @throws core::InputError if it is anything else
 std::optional<Outcome> finished_result(const std::string& path, const OpenStudy& open,
@@ -121,8 +135,9 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
   if (summary->text("study_hash") != open.hash) {
     throw core::InputError(
         {path, 0},
-        "holds the result of another study; use --fresh to compute this one (the old "
-        "result is moved aside), or -o for another file");
+        "holds the result of another study; use --fresh to compute this one (the old result is "
+        "moved "
+        "aside), --extend if only values of axes differ, or -o for another file");
   }
   const std::string part = summary->text("shard").value_or("");
   if (part != shard) {
@@ -194,12 +209,12 @@ void tell_what_is_there(const sweep::JournalContents& contents) {
 }  // namespace
 
 int run(const StudyOptions& options, const RunSettings& settings) {
+  const std::unique_ptr<sweep::Team> team = join_team();
+  if (team->rank() > 0) return help_run(*team, options, settings);
+  sweep::Lead lead(*team);
   const OpenStudy open = open_study(options);
   const std::string shard = shard_text(settings);
-  const std::string usual = shard.empty() ? open.study.name + ".h5"
-                                          : fmt::format("{}.shard-{}-of-{}.h5", open.study.name,
-                                                        settings.shard, settings.shards);
-  const std::string path = settings.output.empty() ? usual : settings.output;
+  const std::string path = result_path(open, settings);
   const std::string journal_path = path + ".journal";
   std::error_code different, ignored;
   if (fs::equivalent(path, options.file, different)) {
@@ -209,7 +224,14 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   sweep::Layout layout = study::layout(open.study);
   layout.attributes = origin(open, options, threads);
-  if (!shard.empty()) layout.attributes.emplace_back("shard", shard);
+  if (!shard.empty()) {
+    const sweep::JournalHeader part = journal_header(open, layout, settings, 1);
+    layout.attributes.emplace_back("shard", shard);
+    layout.attributes.emplace_back("shard_first_point", part.first);
+    layout.attributes.emplace_back("shard_points", part.count);
+    layout.points_here = part.count;
+  }
+  if (team->size() > 1) layout.attributes.emplace_back("ranks", std::int64_t{team->size()});
   std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind
   const sweep::EvaluateBlock evaluate = study::block_evaluator(open.study, &stop);
 
@@ -221,6 +243,8 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   }
   if (there) {
     check_same(journal_path, there->header, journal_header(open, layout, settings, 1));
+  } else if (settings.extend && is_of_another_study(path, open)) {
+    check_extends(path, open);
   } else if (!settings.fresh) {
     const auto outcome = finished_result(path, open, shard);
     if (outcome && !(settings.failed && outcome->failed > 0)) {
@@ -233,7 +257,8 @@ int run(const StudyOptions& options, const RunSettings& settings) {
     }
   }
   { const io::AtomicFile target(path); }  // what cannot be written is refused before the work
-  const std::string crash_path = journal_path + ".crashes";
+  lead.meet(team_identity(open));
+  const std::string crash_path = crash_record_path(path);
   if (settings.fresh) fs::remove(crash_path, ignored);
   const auto crashes = sweep::read_crashes(crash_path);
   sweep::record_crashes(fs::absolute(crash_path).string());
@@ -244,6 +269,10 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   sweep::Journal journal(journal_path, journal_header(open, layout, settings, block_size),
                          this_process());
   if (settings.failed) reopen_failed(journal, path);
+  if (settings.extend && is_of_another_study(path, open)) {
+    const std::int64_t reused = reuse_points(journal, path, open.study);
+    fmt::print(stderr, "{} points are those of the old result\n", count_text(reused));
+  }
   fail_crashed_points(journal, crashes);
   tell_what_is_there(journal.contents());
   const double before = journal.contents().seconds;
@@ -251,14 +280,14 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   ProgressDisplay display(settings.quiet);
   JournalSink sink(journal, settings.disk_patience, stop);
   bool too_many = false;
-  const sweep::Progress progress = sweep::run_blocks(
-      evaluate, sink, sweep::remainder(journal),
-      {.threads = threads, .stop = &stop, .progress = [&](const sweep::Progress& now) {
-         display.show(now);
-         if (settings.max_failures < 0 || now.failed <= settings.max_failures) return;
-         too_many = true;
-         stop = true;
-       }});
+  const sweep::Progress progress =
+      lead.run(evaluate, journal.contents().header, sink, sweep::remainder(journal),
+               {.threads = threads, .stop = &stop, .progress = [&](const sweep::Progress& now) {
+                  display.show(now);
+                  if (settings.max_failures < 0 || now.failed <= settings.max_failures) return;
+                  too_many = true;
+                  stop = true;
+                }});
   display.clear();
   if (progress.done() < progress.points) {
     journal.sync();

@@ -46,7 +46,7 @@ sweep::JournalHeader journal_header(const OpenStudy& open, const sweep::Layout& 
   header.block_size = block_size;
   header.columns = static_cast<std::int64_t>(layout.columns.size());
   header.traces = layout.traces;
-  header.keep_old = settings.fresh;
+  header.keep_old = settings.fresh || settings.extend;
   return header;
 }
 

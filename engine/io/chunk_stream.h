@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -75,6 +76,11 @@ class ChunkStream {
   void flush() {
     if (held_.empty()) return;
     const auto count = static_cast<std::int64_t>(held_.size());
+    if (!unlimited_ && !shape_.empty() && is_empty()) {
+      next_ += count;
+      held_.clear();
+      return;
+    }
     if (unlimited_) {
       shape_[0] = next_ + count;
       hdf5::extend(dataset_.get(), shape_[0]);
@@ -96,6 +102,16 @@ class ChunkStream {
   hid_t dataset() const { return dataset_.get(); }
 
  private:
+  /// Nothing but the fill value, NaN: what the file has where nothing was written.
+  bool is_empty() const {
+    if constexpr (std::is_same_v<T, double>) {
+      constexpr auto kFill = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN());
+      return std::all_of(held_.begin(), held_.end(),
+                         [](double value) { return std::bit_cast<std::uint64_t>(value) == kFill; });
+    }
+    return false;
+  }
+
   /// Where the chunk being filled ends.
   std::int64_t end() const {
     if (unlimited_) return (next_ / chunk_[0] + 1) * chunk_[0];

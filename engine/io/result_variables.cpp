@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/result_variables.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <limits>
@@ -36,11 +37,20 @@ void describe(hid_t dataset, const Description& description) {
   hdf5::write_attribute(dataset, "long_name", description.long_name);
 }
 
+/// Chunks of a part of a study are no larger than the part, or most of them would be empty space.
+std::int64_t chunk_elements(const sweep::Layout& layout) {
+  constexpr std::int64_t kFewest = 4096;
+  if (layout.points_here == 0) return kChunkElements;
+  return std::clamp<std::int64_t>(layout.points_here, kFewest, kChunkElements);
+}
+
 /// Makes the variables of one file; knows its dimensions.
 class Builder {
  public:
   Builder(hid_t file, const sweep::Layout& layout)
-      : file_(file), layout_(layout), chunk_(row_major_chunk(layout.shape, kChunkElements)) {
+      : file_(file),
+        layout_(layout),
+        chunk_(row_major_chunk(layout.shape, chunk_elements(layout))) {
     if (is_grid()) {
       for (const sweep::Coordinate& coordinate : layout.coordinates) {
         scales_.push_back(create_coordinate(coordinate));

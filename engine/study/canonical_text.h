@@ -19,4 +19,8 @@ using SettingMap = std::map<std::string_view, Setting>;
 /// because it does. Numbers are written so that they read back exactly.
 std::string canonical_text(const Study& study, const SettingMap& settings, const Given& given);
 
+/// The same without the values of the axes: of two studies with the same text here, points with the
+/// same parameters have the same results.
+std::string settings_text(const Study& study, const SettingMap& settings, const Given& given);
+
 }  // namespace millstudy::study

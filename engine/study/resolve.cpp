@@ -66,6 +66,7 @@ class Resolver {
       }
     }
     study_.canonical = canonical_text(study_, settings_, given_);
+    study_.settings = settings_text(study_, settings_, given_);
     return std::move(study_);
   }
 

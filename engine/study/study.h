@@ -34,6 +34,9 @@ struct Axis {
   std::size_t size() const { return numeric() ? numbers.size() : labels.size(); }
 };
 
+/// A label of an axis and all that it sets, the contents of its file too: "[up cut.milling = up]".
+std::string label_text(const Axis& axis, std::size_t i);
+
 /// A limit on a quantity: points outside are skipped. Bounds are inclusive.
 struct Limit {
   std::string quantity;
@@ -58,6 +61,9 @@ struct Study {
   /// The resolved study as text: what study_hash is the hash of. Defaults, overrides and the
   /// contents of files are in it; name, description and comments are not.
   std::string canonical;
+  /// The same without the values of the axes: studies that have it in common have the same results
+  /// at points with the same parameters.
+  std::string settings;
   /// What it does at the user's own risk; the program tells, and goes on.
   std::vector<core::Fault> warnings;
   std::vector<core::Fault> notes;  ///< what was made of it that the user should hear of

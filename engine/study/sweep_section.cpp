@@ -9,7 +9,6 @@
 #include "study/quantity.h"
 #include "study/suggest.h"
 #include "study/sweep_design.h"
-#include "sweep/sampling.h"
 
 namespace millstudy::study {
 namespace {
@@ -23,7 +22,8 @@ class SweepReader {
 
   void read(const core::Value& section) {
     if (!section.is_table()) return faults_.add(section.place, "sweep must be a table");
-    design_ = read_design(section, study_.notes, faults_);
+    const core::Value* axes = section.find("axes");
+    design_ = read_design(section, axes ? count_axes(*axes, "") : 0, study_.notes, faults_);
     for (const auto& [key, value] : section.table()) {
       if (key == "design" || key == "samples" || key == "seed") {
         continue;
@@ -99,6 +99,20 @@ class SweepReader {
     }
   }
 
+  std::size_t count_axes(const core::Value& table, const std::string& prefix) const {
+    if (!table.is_table()) return 0;
+    std::size_t count = 0;
+    for (const auto& [name, value] : table.table()) {
+      const std::string path = prefix.empty() ? name : prefix + '.' + name;
+      if (study_.kind->find_key(path)) {
+        ++count;
+      } else {
+        count += count_axes(value, path);
+      }
+    }
+    return count;
+  }
+
   void read_axis(const Key& key, const core::Value& value) {
     if (!key.sweepable()) {
       return faults_.add(value.place, fmt::format("sweep.axes: {} cannot be swept", key.path));
@@ -146,14 +160,7 @@ class SweepReader {
     if (!design_.is_sampled()) return;
     axis.sampled =
         fmt::format("{} of {}", design_.how(study_.axes.size()), fmt::join(axis.numbers, " "));
-    for (std::size_t i = 0; i < axis.labels.size(); ++i) {
-      axis.sampled += fmt::format(" [{}", axis.labels[i]);
-      for (const Assignment& assignment : axis.settings[i]) {
-        axis.sampled +=
-            fmt::format(" {} = {}", assignment.key->path, to_string(assignment.setting));
-      }
-      axis.sampled += ']';
-    }
+    for (std::size_t i = 0; i < axis.labels.size(); ++i) axis.sampled += ' ' + label_text(axis, i);
     take_sampled(axis.numbers);
     take_sampled(axis.labels);
     take_sampled(axis.settings);
@@ -324,10 +331,6 @@ class SweepReader {
 
   void make_space(const core::Place& place) {
     if (design_.design == sweep::Design::grid) check_repeats();
-    if (design_.design == sweep::Design::sobol && study_.axes.size() > sweep::kSobolDimensions) {
-      return faults_.add(place, fmt::format("sweep.axes has {} axes: a sobol design has {} at most",
-                                            study_.axes.size(), sweep::kSobolDimensions));
-    }
     std::vector<std::int64_t> lengths;
     for (const Axis& axis : study_.axes) lengths.push_back(static_cast<std::int64_t>(axis.size()));
     try {

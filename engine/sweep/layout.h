@@ -41,6 +41,7 @@ struct Layout {
   std::vector<Column> columns;
   bool traces = false;
   std::vector<Attribute> attributes;  ///< known before the run: title, study, study_hash, ...
+  std::int64_t points_here = 0;       ///< that have results, of a part of a study; 0: all
 
   std::int64_t points() const {
     std::int64_t product = 1;

@@ -13,6 +13,7 @@ enum class Design {
   zip,              ///< the i-th value of every axis together; all axes have one length
   latin_hypercube,  ///< a zip of axes that were sampled so
   sobol,            ///< likewise
+  saltelli,         ///< likewise
 };
 
 inline constexpr std::int64_t kMostPoints = 1'000'000'000;

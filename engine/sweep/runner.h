@@ -2,8 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
 
 #include "sweep/block.h"
 #include "sweep/layout.h"
@@ -33,10 +37,9 @@ struct Remainder {
 };
 
 struct RunOptions {
-  int threads = 0;              ///< 0: all
-  std::int64_t block_size = 0;  ///< points per block; 0: chosen from the number of points
+  int threads = 0;                                     ///< 0: all
   const std::atomic<bool>* stop = nullptr;             ///< set from outside to end early
-  std::function<void(const Progress&)> progress = {};  ///< called after every block, on one thread
+  std::function<void(const Progress&)> progress = {};  ///< called after every block, one at a time
 };
 
 /// Fills one block: every point that has no status yet gets one, and its values or its failure.
@@ -51,17 +54,46 @@ using EvaluateBlock = std::function<void(Block&)>;
 ///                           sees progress and the last blocks end at different times
 std::int64_t default_block_size(const Layout& layout, double seconds_per_point = 0.0);
 
-/// Computes what is left of a study and hands blocks to the sink as soon as they are there, in any
-/// order; where it is stopped, those in flight with the points they have.
-Progress run_blocks(const EvaluateBlock& evaluate, Sink& sink, const Remainder& remainder,
-                    const RunOptions& options);
+/// The blocks of a run on their way: handed out one after another, taken in as they come. Every
+/// function may be called from any thread.
+class BlockDesk {
+ public:
+  BlockDesk(const Remainder& remainder, Sink& sink, const RunOptions& options);
 
-/// Evaluates every point of the study in blocks, in parallel, and hands the blocks to the sink in
-/// order. Does not call Sink::finish: an interrupted run (progress.done() < points) is the
-/// caller's to judge.
+  /// The next block to compute; nullopt if there are no more or the run is to end.
+  std::optional<std::int64_t> next();
+  /// A computed block goes to the sink and is counted. @throws what the sink throws
+  void take(const Block& block);
+
+  /// From now on next() gives none.
+  void stop() { stopped_ = true; }
+  bool stopped() const;
+  Progress progress() const;
+
+ private:
+  const Remainder& remainder_;
+  Sink& sink_;
+  const RunOptions& options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::atomic<bool> stopped_ = false;
+  mutable std::mutex mutex_;  // of what follows, and of the sink
+  std::size_t at_ = 0;
+  Progress progress_;
+};
+
+/// The block with its computing time.
+Block computed(const EvaluateBlock& evaluate, Block block);
+
+/// Computes blocks of a desk in parallel until it has no more.
+void compute_blocks(BlockDesk& desk, const EvaluateBlock& evaluate, const Remainder& remainder,
+                    int threads);
+
+/// Computes what is left of a study and hands blocks to the sink as soon as they are there, in any
+/// order; where it is stopped, those in flight with the points they have. Does not call
+/// Sink::finish: an interrupted run (progress.done() < points) is the caller's to judge.
 ///
 /// The values do not depend on threads or block size; memory is bounded by the blocks in flight.
-Progress run_blocks(const Layout& layout, const EvaluateBlock& evaluate, Sink& sink,
+Progress run_blocks(const EvaluateBlock& evaluate, Sink& sink, const Remainder& remainder,
                     const RunOptions& options);
 
 }  // namespace millstudy::sweep

@@ -145,4 +145,17 @@ std::vector<double> sobol(std::int64_t samples, int dimension, std::uint64_t see
   return values;
 }
 
+std::vector<double> saltelli(std::int64_t groups, int axes, int axis, std::uint64_t seed) {
+  const std::vector<double> a = sobol(groups, axis, seed);
+  const std::vector<double> b = sobol(groups, axes + axis, seed);
+  std::vector<double> values;
+  values.reserve(a.size() * static_cast<std::size_t>(axes + 2));
+  for (std::size_t group = 0; group < a.size(); ++group) {
+    values.push_back(a[group]);
+    values.push_back(b[group]);
+    for (int i = 0; i < axes; ++i) values.push_back(i == axis ? b[group] : a[group]);
+  }
+  return values;
+}
+
 }  // namespace millstudy::sweep

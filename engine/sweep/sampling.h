@@ -26,6 +26,15 @@ std::vector<double> latin_hypercube(std::int64_t samples, int dimension, std::ui
 /// @return shape (samples), multiples of 2^-32 and half of that: > 0 and < 1
 std::vector<double> sobol(std::int64_t samples, int dimension, std::uint64_t seed);
 
+/// Places of the points of a design for Sobol' indices (A. Saltelli et al., Comput. Phys. Commun.
+/// 181 (2010) 259-270): groups of axes + 2 points each; of two samples a and b of a sequence in 2
+/// axes dimensions the first point of a group is a, the second b, and point 2 + i is a with axis i
+/// of b.
+///
+/// @param axes  1 .. kSobolDimensions / 2
+/// @return shape (groups (axes + 2)), of one axis
+std::vector<double> saltelli(std::int64_t groups, int axes, int axis, std::uint64_t seed);
+
 /// Without scrambling, as integers over 2^32; the first is 0.
 std::uint32_t sobol_integer(std::uint32_t index, int dimension);
 

@@ -20,9 +20,9 @@ class BadCommands(ProgramTest):
         self.assertEqual(self.files(), before)
 
     def test_verbs_and_flags(self):
-        self.check([], "millstudy: give one of plan, run, status, merge, fit, export, keys; see millstudy --help")
+        self.check([], "millstudy: give one of plan, run, status, merge, fit, sensitivity, export, keys; see millstudy --help")
         self.check(["mill", "study.toml"],
-                   "millstudy: mill is not one of plan, run, status, merge, fit, export, keys; see millstudy --help")
+                   "millstudy: mill is not one of plan, run, status, merge, fit, sensitivity, export, keys; see millstudy --help")
         self.check(["run"], "millstudy run: study is required; see millstudy run --help")
         self.check(["run", "study.toml", "--turbo"], "millstudy run: The following argument was not "
                    "expected: --turbo; see millstudy run --help")

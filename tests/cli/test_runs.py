@@ -89,8 +89,8 @@ class Run(ProgramTest):
         self.write(SLOT.replace("= 0.5", "= 0.6"))
         before = self.files()
         self.assertEqual(self.refused("run", "study.toml"),
-                         "slot.h5: holds the result of another study; use --fresh to compute this one "
-                         "(the old result is moved aside), or -o for another file\n")
+                         "slot.h5: holds the result of another study; use --fresh to compute this one (the old result "
+                         "is moved aside), --extend if only values of axes differ, or -o for another file\n")
         self.assertEqual(self.files(), before)
 
     def test_fresh_moves_the_old_result_aside(self):

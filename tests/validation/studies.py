@@ -5,6 +5,7 @@ Usage: studies.py MILLSTUDY STUDY, where STUDY names one of the functions below.
 Every comparison prints the source, the number expected, ours, and the distance; a number that is
 off by more than half a unit of its last printed digit (or the tolerance given) fails.
 """
+import json
 import pathlib
 import subprocess
 import sys
@@ -438,6 +439,48 @@ def stability_dataset(program, folder, check):
                 np.array2string(stable.mean(axis=(0, 2, 3)), precision=2))
     check.holds("and more teeth", (np.diff(stable.mean(axis=(1, 2, 3))) <= 0).all(),
                 np.array2string(stable.mean(axis=(1, 2, 3)), precision=2))
+
+
+def force_sensitivity(program, folder, check):
+    """The mean force of a slot is a product and sum of its inputs: its indices are known exactly."""
+    result = run(program, "force_sensitivity", folder)
+    indices = json.loads(subprocess.run(
+        [program, "sensitivity", str(pathlib.Path(folder) / "result.h5"), "--variable", "force_y_mean", "--json"],
+        check=True, stdout=subprocess.PIPE).stdout)[0]
+    check.holds("no group is dropped", indices["groups"] == 4096 and indices["dropped_groups"] == 0, indices["groups"])
+    # |Fy| = a (N c Ktc / 4 + N Kte / pi), Altintas, Manufacturing Automation, eq. 2.21; means and variances of uniform inputs.
+    mean, variance = {}, {}
+    for name, low, high in (("a", 0.9, 1.1), ("c", 0.05, 0.07), ("Ktc", 1900.0, 2450.0), ("Kte", 12.0, 22.0)):
+        mean[name], variance[name] = (low + high) / 2, (high - low) ** 2 / 12
+    u, v = 4 / 4, 4 / np.pi
+    second = {name: variance[name] + mean[name] ** 2 for name in mean}
+    g = u * mean["c"] * mean["Ktc"] + v * mean["Kte"]
+    var_g = u * u * (second["c"] * second["Ktc"] - (mean["c"] * mean["Ktc"]) ** 2) + v * v * variance["Kte"]
+    whole = second["a"] * (var_g + g * g) - (mean["a"] * g) ** 2
+
+    def without(fixed):
+        """Variance of the mean over one input of g."""
+        parts = {"c": u * u * mean["c"] ** 2 * variance["Ktc"] + v * v * variance["Kte"],
+                 "Ktc": u * u * mean["Ktc"] ** 2 * variance["c"] + v * v * variance["Kte"],
+                 "Kte": var_g - v * v * variance["Kte"]}
+        return second["a"] * (parts[fixed] + g * g) - (mean["a"] * g) ** 2
+
+    first = {"cut.axial_depth_mm": variance["a"] * g * g / whole,
+             "cut.feed_per_tooth_mm": (mean["a"] * u * mean["Ktc"]) ** 2 * variance["c"] / whole,
+             "coefficients.Ktc_N_per_mm2": (mean["a"] * u * mean["c"]) ** 2 * variance["Ktc"] / whole,
+             "coefficients.Kte_N_per_mm": (mean["a"] * v) ** 2 * variance["Kte"] / whole,
+             "coefficients.Krc_N_per_mm2": 0.0, "cutter.helix_deg": 0.0}
+    total = {"cut.axial_depth_mm": 1.0 - mean["a"] ** 2 * var_g / whole,
+             "cut.feed_per_tooth_mm": 1.0 - without("c") / whole,
+             "coefficients.Ktc_N_per_mm2": 1.0 - without("Ktc") / whole,
+             "coefficients.Kte_N_per_mm": 1.0 - without("Kte") / whole,
+             "coefficients.Krc_N_per_mm2": 0.0, "cutter.helix_deg": 0.0}
+    for axis in indices["axes"]:
+        name = axis["axis"]
+        check.number(f"{name} alone", "exact", f"{first[name]:.6f}", axis["first"]["value"], 0.002)
+        check.number(f"{name} in all", "exact", f"{total[name]:.6f}", axis["total"]["value"], 0.002)
+    check.number("mean of the mean force along y", "exact", f"{mean['a'] * g:.6f}",
+                 np.abs(result["force_y_mean"]).reshape(-1, 8)[:, :2].mean(), 0.01)
 
 
 def main():

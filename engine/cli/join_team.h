@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "sweep/team.h"
+
+namespace millstudy::cli {
+
+/// The processes that mpirun or srun started together with this one; this one alone in a program
+/// without MPI, and where nobody started more.
+std::unique_ptr<sweep::Team> join_team();
+
+}  // namespace millstudy::cli
