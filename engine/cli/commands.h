@@ -30,6 +30,7 @@ struct RunSettings {
   bool extend = false;  ///< use points of a result with other values on its axes
   int shard = 0;        ///< which of so many parts of the study, from 1; 0: all of it
   int shards = 0;
+  std::uint64_t memory = 0;        ///< most bytes to use; 0: as it comes
   std::int64_t max_failures = -1;  ///< end early beyond so many; -1: never
   double disk_patience = 600.0;    ///< how long to wait for room on the disk [s]
 };

@@ -113,6 +113,9 @@ int main(int argc, char** argv) {
       ->excludes("--extend");
   run->add_option("--block-size", settings.block_size, "points per block (default: chosen)")
       ->check(CLI::Range(1, 1'000'000));
+  run->add_option("--memory", settings.memory, "most memory to use, as 500MB or 4GB")
+      ->transform(CLI::AsSizeValue(true))
+      ->type_name("SIZE");
   run->add_option("--max-failures", settings.max_failures, "end early beyond so many failed points")
       ->check(CLI::NonNegativeNumber);
   run->add_option("--disk-wait", settings.disk_patience,

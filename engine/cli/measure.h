@@ -26,4 +26,9 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
 /// blocks, in which points share work as they do in a run.
 Estimate measure(const study::Study& study, const sweep::Layout& layout);
 
+/// Memory of a run [bytes]: one chunk a column in the writer, and the blocks in flight with the
+/// frames that they become.
+double memory_bytes(const sweep::Layout& layout, double trace_samples_per_point, int threads,
+                    std::int64_t block_size);
+
 }  // namespace millstudy::cli

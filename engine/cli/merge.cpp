@@ -103,8 +103,8 @@ struct Part {
   std::int64_t end;
 };
 
-/// Where the points from `first` on are those of other parts: a part is read in few pieces, for each
-/// piece costs the unpacking of all chunks that it touches.
+/// Where the points from `first` on are those of other parts: a part is read in few pieces, for
+/// each piece costs the unpacking of all chunks that it touches.
 std::int64_t next_border(const std::vector<Part>& parts, std::int64_t first, std::int64_t points) {
   std::int64_t border = points;
   for (const Part& part : parts) {

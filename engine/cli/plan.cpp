@@ -13,19 +13,6 @@
 namespace millstudy::cli {
 namespace {
 
-/// One chunk a column in the writer, and the blocks in flight.
-double memory_bytes(const sweep::Layout& layout, const Estimate& estimate, int threads) {
-  constexpr double kProgram = 12e6;
-  constexpr double kChunk = 8.0 * 65536.0;  // at most one a column is held back
-  const double per_point =
-      8.0 * static_cast<double>(layout.columns.size()) + 20.0 * estimate.trace_samples_per_point;
-  const double chunk = std::min(kChunk, 8.0 * static_cast<double>(layout.points()));
-  return kProgram + chunk * static_cast<double>(layout.columns.size()) +
-         4.0 * threads *
-             static_cast<double>(sweep::default_block_size(layout, estimate.seconds_per_point)) *
-             per_point;
-}
-
 std::string axis_text(const study::Axis& axis) {
   if (!axis.numeric()) {
     std::vector<std::string> different;  // a sampled axis has each many times
@@ -55,7 +42,8 @@ int plan(const StudyOptions& options) {
   const double samples = estimate.trace_samples_per_point * static_cast<double>(layout.points());
   const double bytes =
       io::largest_result_bytes(layout, samples) + static_cast<double>(open.text.size());
-  const double memory = memory_bytes(layout, estimate, threads);
+  const double memory = memory_bytes(layout, estimate.trace_samples_per_point, threads,
+                                     sweep::default_block_size(layout, estimate.seconds_per_point));
   if (options.json) {
     nlohmann::json json = {{"name", open.study.name},
                            {"kind", open.study.kind->name},

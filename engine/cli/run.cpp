@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "cli/commands.h"
 #include "cli/extension.h"
@@ -186,12 +187,51 @@ std::string shard_text(const RunSettings& settings) {
   return settings.shards > 0 ? fmt::format("{}/{}", settings.shard, settings.shards) : "";
 }
 
-std::int64_t chosen_block_size(const RunSettings& settings, const sweep::Layout& layout,
-                               const sweep::EvaluateBlock& evaluate) {
-  if (settings.block_size > 0) return settings.block_size;
-  if (sweep::default_block_size(layout) <= 1) return 1;
+/// How a run goes about its points.
+struct Pace {
+  std::int64_t block_size = 1;
+  int threads = 1;
+};
+
+/// Smaller blocks, and then fewer threads, until they fit into the memory that the user allows.
+/// @param fixed  size of the blocks of a journal that is there; 0: to be chosen
+/// @throws core::InputError if not even one thread fits
+Pace chosen_pace(const RunSettings& settings, const sweep::Layout& layout,
+                 const sweep::EvaluateBlock& evaluate, int threads, std::int64_t fixed) {
+  Pace pace{fixed > 0 ? fixed : settings.block_size, threads};
+  if (pace.block_size == 0 && sweep::default_block_size(layout) <= 1) pace.block_size = 1;
+  if (pace.block_size > 0 && settings.memory == 0) return pace;
   const Estimate one = measure_blocks(evaluate, layout, 1, 1, 0.0);
-  return sweep::default_block_size(layout, one.seconds_per_point);
+  if (pace.block_size == 0) {
+    pace.block_size = sweep::default_block_size(layout, one.seconds_per_point);
+  }
+  if (settings.memory == 0) return pace;
+  const auto allowed = static_cast<double>(settings.memory);
+  const auto needed = [&] {
+    return memory_bytes(layout, one.trace_samples_per_point, pace.threads, pace.block_size);
+  };
+  while (needed() > allowed && fixed == 0 && pace.block_size > 1) pace.block_size /= 2;
+  while (needed() > allowed && pace.threads > 1) --pace.threads;
+  if (needed() > allowed) {
+    throw core::InputError({"--memory", 0},
+                           fmt::format("{} is not enough: one thread needs about {}",
+                                       bytes_text(allowed), bytes_text(needed())));
+  }
+  if (pace.threads < threads) {
+    fmt::print(stderr, "{} of {} threads, for {} of memory\n", pace.threads, threads,
+               bytes_text(allowed));
+  }
+  return pace;
+}
+
+/// What goes beyond the limit is out of memory, and not the machine's trouble.
+void limit_memory(std::uint64_t bytes, int threads) {
+  if (bytes == 0) return;
+  constexpr rlim_t kStack = 10 << 20;  // reserved for each thread, hardly used
+  rlimit limit{};
+  getrlimit(RLIMIT_DATA, &limit);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, bytes + kStack * static_cast<rlim_t>(threads));
+  setrlimit(RLIMIT_DATA, &limit);
 }
 
 void tell_what_is_there(const sweep::JournalContents& contents) {
@@ -262,11 +302,12 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   if (settings.fresh) fs::remove(crash_path, ignored);
   const auto crashes = sweep::read_crashes(crash_path);
   sweep::record_crashes(fs::absolute(crash_path).string());
-  const std::int64_t block_size = there ? there->header.block_size
-                                  : !crashes.empty()
-                                      ? sweep::default_block_size(layout)
-                                      : chosen_block_size(settings, layout, evaluate);
-  sweep::Journal journal(journal_path, journal_header(open, layout, settings, block_size),
+  const std::int64_t fixed = there              ? there->header.block_size
+                             : !crashes.empty() ? sweep::default_block_size(layout)
+                                                : 0;
+  const Pace pace = chosen_pace(settings, layout, evaluate, threads, fixed);
+  limit_memory(settings.memory, pace.threads);
+  sweep::Journal journal(journal_path, journal_header(open, layout, settings, pace.block_size),
                          this_process());
   if (settings.failed) reopen_failed(journal, path);
   if (settings.extend && is_of_another_study(path, open)) {
@@ -280,14 +321,14 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   ProgressDisplay display(settings.quiet);
   JournalSink sink(journal, settings.disk_patience, stop);
   bool too_many = false;
-  const sweep::Progress progress =
-      lead.run(evaluate, journal.contents().header, sink, sweep::remainder(journal),
-               {.threads = threads, .stop = &stop, .progress = [&](const sweep::Progress& now) {
-                  display.show(now);
-                  if (settings.max_failures < 0 || now.failed <= settings.max_failures) return;
-                  too_many = true;
-                  stop = true;
-                }});
+  const sweep::Progress progress = lead.run(
+      evaluate, journal.contents().header, sink, sweep::remainder(journal),
+      {.threads = pace.threads, .stop = &stop, .progress = [&](const sweep::Progress& now) {
+         display.show(now);
+         if (settings.max_failures < 0 || now.failed <= settings.max_failures) return;
+         too_many = true;
+         stop = true;
+       }});
   display.clear();
   if (progress.done() < progress.points) {
     journal.sync();
