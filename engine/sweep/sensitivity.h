@@ -30,7 +30,8 @@ struct Sensitivity {
 
 /// Sobol' indices of a variable over a saltelli() design: first order by the estimator of A.
 /// Saltelli et al. (Comput. Phys. Commun. 181 (2010) 259-270, table 2 (b)), the mean taken off
-/// before; total by M.J.W. Jansen's (Comput. Phys. Commun. 117 (1999) 35-43).
+/// before; total by M.J.W. Jansen's (Comput. Phys. Commun. 117 (1999) 35-43); theory.md, (W3) to
+/// (W5).
 ///
 /// Intervals are percentiles of 1000 bootstrap samples of the groups, of more than 1024 groups in
 /// as many parts; the same for the same values, always. At 2^14 groups of the Ishigami function
