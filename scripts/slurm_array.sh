@@ -38,6 +38,9 @@ task() {
   case $code in
     0 | 2 | 3) exit "$code" ;; # done, bad input, done but for failed points: once more would not help
   esac
+  local state
+  state=$(squeue --noheader --jobs="${SLURM_ARRAY_JOB_ID}_$k" --format=%T || true)
+  [ "$state" = RUNNING ] || exit "$code" # scancel: somebody does not want it
   if [ "${SLURM_RESTART_COUNT:-0}" -lt 20 ]; then
     echo "part $k ended with code $code after ${SLURM_RESTART_COUNT:-0} restarts: it is queued again"
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$k"

@@ -188,13 +188,12 @@ void check_extends(const std::string& result, const OpenStudy& open) {
 
 std::int64_t reuse_points(sweep::Journal& journal, const std::string& result,
                           const study::Study& study) {
-  constexpr std::int64_t kAtOnce = 1 << 14;  // points of the new study
-  constexpr std::int64_t kGap = 256;  // unwanted points that are read rather than passed over
   const io::ResultBlocks old(result);
   OldPoints points(old, study);
   const sweep::JournalHeader& header = journal.contents().header;
-  const std::int64_t blocks_at_once =
-      std::max<std::int64_t>(1, (header.traces ? 64 : kAtOnce) / header.block_size);
+  const std::int64_t at_once = header.traces ? 64 : 1 << 14;  // points in memory
+  const std::int64_t gap = header.traces ? 1 : 256;  // so far apart points are read together
+  const std::int64_t blocks_at_once = std::max<std::int64_t>(1, at_once / header.block_size);
   std::int64_t reused = 0;
   const std::vector<std::int64_t> pending = journal.pending();
   for (std::size_t begin = 0; begin < pending.size();) {
@@ -216,14 +215,15 @@ std::int64_t reuse_points(sweep::Journal& journal, const std::string& result,
     for (std::size_t m = 0; m < matches.size();) {
       const std::int64_t first = matches[m].old;
       std::size_t last = m;
-      while (last + 1 < matches.size() && matches[last + 1].old - matches[last].old <= kGap &&
-             matches[last + 1].old - first < kAtOnce) {
+      while (last + 1 < matches.size() && matches[last + 1].old - matches[last].old <= gap &&
+             matches[last + 1].old - first < at_once) {
         ++last;
       }
       sweep::Block read = old.read(first, matches[last].old - first + 1);
       for (; m <= last; ++m) {
-        copy_point(read, matches[m].old - first, blocks[matches[m].block], matches[m].within);
-        ++reused;
+        const std::int64_t k = matches[m].old - first;
+        reused += read.status[k] != sweep::Status::not_run;
+        copy_point(read, k, blocks[matches[m].block], matches[m].within);
       }
     }
     for (const sweep::Block& block : blocks) {

@@ -94,8 +94,10 @@ struct Counts {
 struct Part {
   explicit Part(const std::string& file) : result(file) {
     const sweep::Layout& layout = result.layout();
-    first = number_of(layout, "shard_first_point").value_or(0);
-    end = first + number_of(layout, "shard_points").value_or(layout.points());
+    const std::int64_t points = layout.points();
+    first = std::clamp<std::int64_t>(number_of(layout, "shard_first_point").value_or(0), 0, points);
+    end = first + std::clamp<std::int64_t>(number_of(layout, "shard_points").value_or(points), 0,
+                                           points - first);
   }
 
   io::ResultBlocks result;

@@ -175,6 +175,20 @@ def run(program, parts, folder):
         if variables(result) != expected:
             raise RuntimeError("the variables differ after a lost part")
         print("a lost part: computed again by the same command, merged, bit for bit")
+        # Who cancels the array does not want it queued again; the journal stays.
+        (folder / f"R.shard-2-of-{parts}.h5").unlink()
+        result.unlink()
+        cluster.command(*submit)
+        wait_until(lambda: tasks_of(parts, str(study)), 60, "the task to cancel")
+        time.sleep(1.5)
+        cluster.command("scancel", "-u", "root")
+        wait_until(lambda: not cluster.queue(), 60, "the end of what was cancelled")
+        time.sleep(3)
+        if cluster.queue() or result.exists():
+            raise RuntimeError("what was cancelled goes on")
+        if not (folder / f"R.shard-2-of-{parts}.h5.journal").exists():
+            raise RuntimeError("a cancelled task left no journal")
+        print("cancelled: not queued again, the journal is kept")
     except RuntimeError as error:
         print(f"FAIL: {error}")
         for log in sorted(folder.glob("*.log")) + sorted((folder / "cluster").glob("*.log")):
