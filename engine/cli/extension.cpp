@@ -12,6 +12,8 @@
 #include "io/result_blocks.h"
 #include "io/result_reader.h"
 #include "io/sha256.h"
+#include "sweep/attributes.h"
+#include "sweep/copy_point.h"
 
 namespace millstudy::cli {
 namespace {
@@ -42,7 +44,7 @@ class OldPoints {
     grid_ = layout.dimensions.size() == layout.coordinates.size() &&
             !(layout.dimensions.size() == 1 && layout.dimensions[0] == "point");
     std::unordered_set<std::string> labels;
-    std::istringstream lines(text_of(layout, "label_hashes"));
+    std::istringstream lines(sweep::text_attribute(layout, "label_hashes"));
     for (std::string line; std::getline(lines, line);) labels.insert(line);
     for (const study::Axis& axis : study.axes) {
       const auto at = std::find_if(layout.coordinates.begin(), layout.coordinates.end(),
@@ -87,14 +89,6 @@ class OldPoints {
     std::vector<std::int64_t> old_ids;
     std::vector<std::int64_t> new_ids;  // -1: no old point has this value
   };
-
-  static std::string text_of(const sweep::Layout& layout, std::string_view name) {
-    for (const auto& [key, value] : layout.attributes) {
-      const auto* text = std::get_if<std::string>(&value);
-      if (key == name && text) return *text;
-    }
-    return "";
-  }
 
   template <class Value>
   static AxisIds ids_of(const std::vector<Value>& old_values, const std::vector<Value>& values) {
@@ -157,16 +151,6 @@ struct Match {
   std::int64_t within = 0;
 };
 
-void copy_point(sweep::Block& from, std::int64_t k, sweep::Block& to, std::int64_t i) {
-  to.status[i] = from.status[k];
-  to.failures[i] = std::move(from.failures[k]);
-  const std::size_t columns = to.values.size() / static_cast<std::size_t>(to.count);
-  for (std::size_t c = 0; c < columns && !from.values.empty(); ++c) {
-    to.value(c, i) = from.value(c, k);
-  }
-  if (!from.traces.empty()) to.traces[i] = std::move(from.traces[k]);
-}
-
 }  // namespace
 
 std::vector<sweep::Attribute> extension_attributes(const study::Study& study) {
@@ -223,7 +207,7 @@ std::int64_t reuse_points(sweep::Journal& journal, const std::string& result,
       for (; m <= last; ++m) {
         const std::int64_t k = matches[m].old - first;
         reused += read.status[k] != sweep::Status::not_run;
-        copy_point(read, k, blocks[matches[m].block], matches[m].within);
+        sweep::copy_point(read, k, blocks[matches[m].block], matches[m].within);
       }
     }
     for (const sweep::Block& block : blocks) {

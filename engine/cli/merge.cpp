@@ -2,7 +2,6 @@
 // The verb merge: results of the parts of one study become the result of all of it.
 #include <algorithm>
 #include <fmt/format.h>
-#include <optional>
 #include <set>
 
 #include "cli/commands.h"
@@ -10,6 +9,8 @@
 #include "core/error.h"
 #include "io/result_blocks.h"
 #include "io/result_writer.h"
+#include "sweep/attributes.h"
+#include "sweep/copy_point.h"
 
 namespace millstudy::cli {
 namespace {
@@ -19,35 +20,20 @@ std::int64_t at_once(const sweep::Layout& layout) {
   return layout.traces ? 256 : 1 << 16;
 }
 
-std::optional<std::int64_t> number_of(const sweep::Layout& layout, std::string_view name) {
-  for (const auto& [key, value] : layout.attributes) {
-    const auto* number = std::get_if<std::int64_t>(&value);
-    if (key == name && number) return *number;
-  }
-  return std::nullopt;
-}
-
-std::string text_of(const sweep::Layout& layout, std::string_view name) {
-  for (const auto& [key, value] : layout.attributes) {
-    const auto* text = std::get_if<std::string>(&value);
-    if (key == name && text) return *text;
-  }
-  return "";
-}
-
 /// @throws core::InputError if a part is not of the same study by the same program as the first
 void check_same(const io::ResultBlocks& first, const io::ResultBlocks& other) {
   const auto refuse = [&](const std::string& why) {
     throw core::InputError({other.path(), 0}, why);
   };
   const sweep::Layout &a = first.layout(), &b = other.layout();
-  if (text_of(a, "study_hash") != text_of(b, "study_hash")) {
+  if (sweep::text_attribute(a, "study_hash") != sweep::text_attribute(b, "study_hash")) {
     refuse(fmt::format("is the result of another study than {}", first.path()));
   }
   for (const char* const name : {"isa", "millstudy_version", "git_revision"}) {
-    if (text_of(a, name) == text_of(b, name)) continue;
+    if (sweep::text_attribute(a, name) == sweep::text_attribute(b, name)) continue;
     refuse(fmt::format("was computed with {} = {}, {} with {}: digits may differ", name,
-                       text_of(b, name), first.path(), text_of(a, name)));
+                       sweep::text_attribute(b, name), first.path(),
+                       sweep::text_attribute(a, name)));
   }
   const bool alike = a.shape == b.shape && a.columns.size() == b.columns.size() &&
                      a.traces == b.traces &&
@@ -95,9 +81,11 @@ struct Part {
   explicit Part(const std::string& file) : result(file) {
     const sweep::Layout& layout = result.layout();
     const std::int64_t points = layout.points();
-    first = std::clamp<std::int64_t>(number_of(layout, "shard_first_point").value_or(0), 0, points);
-    end = first + std::clamp<std::int64_t>(number_of(layout, "shard_points").value_or(points), 0,
-                                           points - first);
+    first = std::clamp<std::int64_t>(
+        sweep::attribute<std::int64_t>(layout, "shard_first_point").value_or(0), 0, points);
+    end = first + std::clamp<std::int64_t>(
+                      sweep::attribute<std::int64_t>(layout, "shard_points").value_or(points), 0,
+                      points - first);
   }
 
   io::ResultBlocks result;
@@ -137,7 +125,7 @@ class Joined {
           twice_.add(first + i);
           continue;
         }
-        take(own, k, block, i);
+        sweep::copy_point(own, k, block, i);
       }
     }
     for (std::int64_t i = 0; i < count; ++i) {
@@ -153,14 +141,6 @@ class Joined {
   const Counts& counts() const { return counts_; }
 
  private:
-  static void take(sweep::Block& from, std::int64_t k, sweep::Block& to, std::int64_t i) {
-    to.status[i] = from.status[k];
-    to.failures[i] = std::move(from.failures[k]);
-    const auto columns = from.values.size() / static_cast<std::size_t>(from.count);
-    for (std::size_t c = 0; c < columns; ++c) to.value(c, i) = from.value(c, k);
-    if (!to.traces.empty()) to.traces[i] = std::move(from.traces[k]);
-  }
-
   const std::vector<Part>& parts_;
   Ranges twice_, missing_;
   Counts counts_;
@@ -180,10 +160,7 @@ sweep::Layout layout_of_all(const std::vector<Part>& parts) {
 double wall_time(const std::vector<Part>& parts) {
   double sum = 0.0;
   for (const Part& part : parts) {
-    for (const auto& [name, value] : part.result.layout().attributes) {
-      const double* seconds = std::get_if<double>(&value);
-      if (name == "wall_time_s" && seconds) sum += *seconds;
-    }
+    sum += sweep::attribute<double>(part.result.layout(), "wall_time_s").value_or(0.0);
   }
   return sum;
 }

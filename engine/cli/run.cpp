@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "cli/commands.h"
 #include "cli/extension.h"
 #include "cli/join_team.h"
 #include "cli/journal_sink.h"
-#include "cli/measure.h"
 #include "cli/open_study.h"
+#include "cli/pace.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/run_journal.h"
@@ -137,8 +136,7 @@ std::optional<Outcome> finished_result(const std::string& path, const OpenStudy&
     throw core::InputError(
         {path, 0},
         "holds the result of another study; use --fresh to compute this one (the old result is "
-        "moved "
-        "aside), --extend if only values of axes differ, or -o for another file");
+        "moved aside), --extend if only values of axes differ, or -o for another file");
   }
   const std::string part = summary->text("shard").value_or("");
   if (part != shard) {
@@ -185,53 +183,6 @@ void move_aside(const fs::path& path, std::string_view what) {
 /// "2/10", empty for all of the study.
 std::string shard_text(const RunSettings& settings) {
   return settings.shards > 0 ? fmt::format("{}/{}", settings.shard, settings.shards) : "";
-}
-
-/// How a run goes about its points.
-struct Pace {
-  std::int64_t block_size = 1;
-  int threads = 1;
-};
-
-/// Smaller blocks, and then fewer threads, until they fit into the memory that the user allows.
-/// @param fixed  size of the blocks of a journal that is there; 0: to be chosen
-/// @throws core::InputError if not even one thread fits
-Pace chosen_pace(const RunSettings& settings, const sweep::Layout& layout,
-                 const sweep::EvaluateBlock& evaluate, int threads, std::int64_t fixed) {
-  Pace pace{fixed > 0 ? fixed : settings.block_size, threads};
-  if (pace.block_size == 0 && sweep::default_block_size(layout) <= 1) pace.block_size = 1;
-  if (pace.block_size > 0 && settings.memory == 0) return pace;
-  const Estimate one = measure_blocks(evaluate, layout, 1, 1, 0.0);
-  if (pace.block_size == 0) {
-    pace.block_size = sweep::default_block_size(layout, one.seconds_per_point);
-  }
-  if (settings.memory == 0) return pace;
-  const auto allowed = static_cast<double>(settings.memory);
-  const auto needed = [&] {
-    return memory_bytes(layout, one.trace_samples_per_point, pace.threads, pace.block_size);
-  };
-  while (needed() > allowed && fixed == 0 && pace.block_size > 1) pace.block_size /= 2;
-  while (needed() > allowed && pace.threads > 1) --pace.threads;
-  if (needed() > allowed) {
-    throw core::InputError({"--memory", 0},
-                           fmt::format("{} is not enough: one thread needs about {}",
-                                       bytes_text(allowed), bytes_text(needed())));
-  }
-  if (pace.threads < threads) {
-    fmt::print(stderr, "{} of {} threads, for {} of memory\n", pace.threads, threads,
-               bytes_text(allowed));
-  }
-  return pace;
-}
-
-/// What goes beyond the limit is out of memory, and not the machine's trouble.
-void limit_memory(std::uint64_t bytes, int threads) {
-  if (bytes == 0) return;
-  constexpr rlim_t kStack = 10 << 20;  // reserved for each thread, hardly used
-  rlimit limit{};
-  getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, bytes + kStack * static_cast<rlim_t>(threads));
-  setrlimit(RLIMIT_DATA, &limit);
 }
 
 void tell_what_is_there(const sweep::JournalContents& contents) {

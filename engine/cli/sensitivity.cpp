@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "io/result_blocks.h"
 #include "io/text_file.h"
+#include "sweep/attributes.h"
 
 namespace millstudy::cli {
 namespace {
@@ -20,13 +21,6 @@ struct VariableSensitivity {
   sweep::Column column;
   sweep::Sensitivity indices;
 };
-
-bool is_saltelli(const sweep::Layout& layout) {
-  return std::any_of(layout.attributes.begin(), layout.attributes.end(), [](const auto& attribute) {
-    const auto* text = std::get_if<std::string>(&attribute.second);
-    return attribute.first == "design" && text && *text == "saltelli";
-  });
-}
 
 /// Values of some columns over all points, NaN where a point has none; shape (columns, points).
 std::vector<std::vector<double>> read_columns(const io::ResultBlocks& result,
@@ -141,7 +135,8 @@ int sensitivity(const SensitivityOptions& options) {
   const io::ResultBlocks result(options.result);
   const sweep::Layout& layout = result.layout();
   const auto axes = static_cast<std::int64_t>(layout.coordinates.size());
-  if (!is_saltelli(layout) || axes == 0 || layout.points() % (axes + 2) != 0) {
+  if (sweep::text_attribute(layout, "design") != "saltelli" || axes == 0 ||
+      layout.points() % (axes + 2) != 0) {
     throw core::InputError({options.result, 0},
                            "is not of a saltelli design: give the study sweep.design = "
                            "\"saltelli\" and sweep.samples, and run it");
