@@ -20,7 +20,7 @@ import h5py
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from program import SLOT  # noqa: E402
 
-STUDY = SLOT.replace("angular_steps = 90", "angular_steps = 1440") + """\
+STUDY = SLOT.replace("angular_steps = 90", "angular_steps = 360") + """\
 [sweep.axes]
 "cut.axial_depth_mm" = { from = 0.1, to = 2.0, count = 400 }
 "cut.feed_rate_mm_per_min" = { from = 600.0, to = 3000.0, count = 500 }

@@ -53,7 +53,7 @@ class Job:
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
         self.result = folder / "R.h5"
-        (folder / "study.toml").write_text(STUDY.replace("angular_steps = 1440", "angular_steps = 360"))
+        (folder / "study.toml").write_text(STUDY)
 
     def start(self, ranks, *more):
         command = [*MPIRUN, "-n", str(ranks), self.program, "run", "study.toml", "-o", "R.h5", "--quiet", "--json",

@@ -142,7 +142,7 @@ def tasks_of(parts, study):
 
 def run(program, parts, folder):
     study, result = folder / "study.toml", folder / "R.h5"
-    study.write_text(STUDY.replace("angular_steps = 1440", "angular_steps = 14400"))
+    study.write_text(STUDY.replace("angular_steps = 360", "angular_steps = 14400"))
     subprocess.run([program, "run", study, "-o", folder / "alone.h5", "--quiet"], check=True,
                    stdout=subprocess.DEVNULL)
     expected = variables(folder / "alone.h5")
