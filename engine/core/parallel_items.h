@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <oneapi/tbb/global_control.h>
@@ -20,7 +19,7 @@ inline int available_threads() {
   return oneapi::tbb::this_task_arena::max_concurrency();
 }
 
-/// Calls work() so many times on up to as many threads at once.
+/// Calls work() once for each of so many threads, on as many at once as there are.
 template <class Work>
 void call_on_threads(int threads, const Work& work) {
 #ifdef __SANITIZE_THREAD__
@@ -48,24 +47,25 @@ void call_on_threads(int threads, const Work& work) {
 /// At most one result a thread is alive at once, however many items there are: memory is bounded by
 /// what is in flight. An exception from any function ends the loop and is thrown here.
 ///
-/// @param next     optional<int64> next(), the items one after the other until there are no more;
+/// @param next     optional<Item> next(), the items one after the other until there are no more;
 ///                 called by one thread at a time
 /// @param threads  >= 1; 0 is all
-/// @param compute  Result compute(int64 item), called concurrently
+/// @param compute  Result compute(Item&&), called concurrently
 /// @param consume  void consume(Result&&), called by one thread at a time
 template <class Next, class Compute, class Consume>
 void parallel_items(const Next& next, int threads, const Compute& compute, const Consume& consume) {
   std::mutex next_mutex, consume_mutex;
   std::atomic<bool> failed = false;
   std::exception_ptr failure;  // the first one
-  const auto take = [&]() -> std::optional<std::int64_t> {
+  const auto take = [&]() -> decltype(next()) {
     const std::lock_guard lock(next_mutex);
-    return failed ? std::nullopt : next();
+    if (failed) return std::nullopt;
+    return next();
   };
   call_on_threads(threads > 0 ? threads : available_threads(), [&] {
     try {
-      while (const std::optional<std::int64_t> item = take()) {
-        auto result = compute(*item);
+      while (auto item = take()) {
+        auto result = compute(std::move(*item));
         const std::lock_guard lock(consume_mutex);
         if (!failed) consume(std::move(result));
       }

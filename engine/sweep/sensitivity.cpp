@@ -11,7 +11,8 @@ namespace {
 constexpr std::int64_t kParts = 1024;
 constexpr int kBootstrap = 1000;
 
-/// Sums over some groups, of which all estimates are made; first and total have one for each axis.
+/// Sums over some groups, of which all estimates are made (theory.md, (W3) to (W5)); first and
+/// total have one for each axis.
 struct Sums {
   explicit Sums(int axes) : first(axes), total(axes) {}
 
@@ -36,7 +37,7 @@ struct Sums {
   }
 };
 
-/// @param mean  taken off: the estimate of the first order is exact in it
+/// (W3) to (W5) of one group. @param mean  taken off its values
 void add_group(Sums& sums, std::span<const double> group, double mean) {
   const double a = group[0] - mean, b = group[1] - mean;
   sums.groups += 1.0;

@@ -8,7 +8,6 @@
 #include <deque>
 #include <exception>
 #include <fmt/format.h>
-#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -117,17 +116,16 @@ class Helper {
 
  private:
   void compute() {
-    const auto next = [this]() -> std::optional<std::int64_t> {
+    const auto next = [this]() -> std::optional<Task> {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [this] { return !tasks_.empty() || no_more_; });
       if (tasks_.empty()) return std::nullopt;
       Task task = std::move(tasks_.front());
       tasks_.pop_front();
-      if (!task.frame.empty()) partly_done_[task.block] = std::move(task.frame);
-      return task.block;
+      return task;
     };
-    const auto compute_one = [this](std::int64_t index) {
-      return std::pair(index, computed(evaluate_, begin(index)));
+    const auto compute_one = [this](const Task& task) {
+      return std::pair(task.block, computed(evaluate_, begin(task)));
     };
     const auto hand_in = [this](const std::pair<std::int64_t, Block>& result) {
       std::string frame = encode_frame(result.first, result.second, {result.second.seconds});
@@ -144,18 +142,9 @@ class Helper {
     computing_ = false;
   }
 
-  Block begin(std::int64_t index) {
-    std::string frame;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found = partly_done_.find(index);
-      if (found != partly_done_.end()) {
-        frame = std::move(found->second);
-        partly_done_.erase(found);
-      }
-    }
-    if (!frame.empty()) return block_of(header_, frame);
-    return {header_.first_of(index), header_.count_of(index),
+  Block begin(const Task& task) const {
+    if (!task.frame.empty()) return block_of(header_, task.frame);
+    return {header_.first_of(task.block), header_.count_of(task.block),
             static_cast<std::size_t>(header_.columns), header_.traces};
   }
 
@@ -226,7 +215,6 @@ class Helper {
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   std::deque<Task> tasks_;
-  std::map<std::int64_t, std::string> partly_done_;  // begun, not yet computed
   std::deque<std::string> results_;
   std::int64_t held_ = 0;  // blocks that were given and are not in results
   bool no_more_ = false;
@@ -237,7 +225,7 @@ class Helper {
 
 Lead::~Lead() {
   try {
-    for (int i = 1; i < team_.size() && !met_; ++i) wait_for(Note::hello);
+    for (int i = 1; i < team_.size() && !met_; ++i) next_hello();
     tell_all(Note::dismissed, "");
   } catch (...) {  // nobody is left to be told
   }
@@ -247,10 +235,10 @@ void Lead::tell_all(Note note, const std::string& bytes) {
   for (int rank = 1; rank < team_.size(); ++rank) team_.send(rank, note, bytes);
 }
 
-Message Lead::wait_for(Note note) {
+Message Lead::next_hello() {
   while (true) {
     auto message = team_.receive();
-    if (message && message->note == note) return std::move(*message);
+    if (message && message->note == Note::hello) return std::move(*message);
     if (!message) rest();
   }
 }
@@ -258,7 +246,7 @@ Message Lead::wait_for(Note note) {
 void Lead::meet(const std::string& identity) {
   std::vector<core::Fault> faults;
   for (int i = 1; i < team_.size(); ++i) {
-    const Message hello = wait_for(Note::hello);
+    const Message hello = next_hello();
     const core::Place place{fmt::format("rank {}", hello.from), 0};
     const std::string said = hello.bytes.substr(1);
     if (hello.bytes[0] == '!') {

@@ -39,7 +39,7 @@ class Lead {
 
  private:
   void tell_all(Note note, const std::string& bytes);
-  Message wait_for(Note note);
+  Message next_hello();
 
   Team& team_;
   bool met_ = false;
