@@ -232,11 +232,11 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   } else {
     there = sweep::read_journal(journal_path);
   }
+  const bool extends = settings.extend && is_of_another_study(path, open);
+  if (extends) check_extends(path, open);
   if (there) {
     check_same(journal_path, there->header, journal_header(open, layout, settings, 1));
-  } else if (settings.extend && is_of_another_study(path, open)) {
-    check_extends(path, open);
-  } else if (!settings.fresh) {
+  } else if (!settings.fresh && !extends) {
     const auto outcome = finished_result(path, open, shard);
     if (outcome && !(settings.failed && outcome->failed > 0)) {
       return print_outcome(*outcome, options, {});
@@ -261,7 +261,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
   sweep::Journal journal(journal_path, journal_header(open, layout, settings, pace.block_size),
                          this_process());
   if (settings.failed) reopen_failed(journal, path);
-  if (settings.extend && is_of_another_study(path, open)) {
+  if (extends) {
     const std::int64_t reused = reuse_points(journal, path, open.study);
     fmt::print(stderr, "{} points are those of the old result\n", count_text(reused));
   }

@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 
+#include "cli/pace.h"
 #include "cli/provenance.h"
 #include "cli/stop_signal.h"
 #include "cli/version.h"
@@ -44,19 +45,24 @@ std::string team_identity(const OpenStudy& open) {
 }
 
 int help_run(sweep::Team& team, const StudyOptions& options, const RunSettings& settings) {
+  std::atomic<bool>& stop = stop_on_signal();
   std::optional<OpenStudy> open;
+  sweep::EvaluateBlock evaluate;
+  int threads = options.threads > 0 ? options.threads : core::available_threads();
   try {
     open = open_study(options);
+    evaluate = study::block_evaluator(open->study, &stop);
+    if (settings.memory > 0) {
+      threads = chosen_pace(settings, study::layout(open->study), evaluate, threads, 0).threads;
+    }
   } catch (const core::InputError& error) {
     sweep::excuse(team, all_lines(error));
     return kDone;  // the first process tells and has the exit code
   }
   try {
-    std::atomic<bool>& stop = stop_on_signal();
     sweep::record_crashes(crash_record_path(result_path(*open, settings)));
-    const int threads = options.threads > 0 ? options.threads : core::available_threads();
-    sweep::help(team, team_identity(*open), study::block_evaluator(open->study, &stop), threads,
-                stop);
+    limit_memory(settings.memory, threads);
+    sweep::help(team, team_identity(*open), evaluate, threads, stop);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "rank {}, {}: out of memory: use fewer threads or fewer processes\n",
                team.rank(), this_process());

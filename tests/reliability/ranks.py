@@ -88,6 +88,13 @@ def same_bits(job):
     return expected, seconds
 
 
+def a_limit_of_memory_is_everybodys(job, expected):
+    job.run(2, "--memory", "100MB")
+    expect(job.take() == expected, "with --memory: other bits")
+    _, err = job.run(2, "--memory", "1MB", code=2)
+    expect("is not enough" in err, f"--memory 1MB: {err}")
+
+
 def bad_input_is_told_once(job):
     out, err = job.run(3, "--set", "cutter.flutes=0", code=2)
     expect(out == "" and err.count("must be >= 1") == 1, f"bad input: {out}{err}")
@@ -161,6 +168,7 @@ def main():
         job = Job(program, pathlib.Path(name))
         try:
             expected, whole = same_bits(job)
+            a_limit_of_memory_is_everybodys(job, expected)
             bad_input_is_told_once(job)
             end_at_a_signal(job, expected)
             a_killed_rank_ends_the_job(job, expected)
