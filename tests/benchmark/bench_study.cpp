@@ -33,10 +33,13 @@ double wall_seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// @param feed_rates  0: the whole study; else so many, at as many spindle speeds
 core::Value study_tree(int feed_rates) {
   core::Value root = io::read_toml(kStudy);
-  core::Value* range = root.find("sweep")->find("axes")->find("cut.feed_rate_mm_per_min");
-  if (feed_rates > 0) range->find("count")->data = std::int64_t{feed_rates};
+  core::Value* axes = root.find("sweep")->find("axes");
+  for (const char* key : {"cut.feed_rate_mm_per_min", "cut.spindle_speed_rpm"}) {
+    if (feed_rates > 0) axes->find(key)->find("count")->data = std::int64_t{feed_rates};
+  }
   return root;
 }
 
