@@ -2,7 +2,7 @@
 #include "cli/extension.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sstream>
 #include <unordered_map>
 #include <unordered_set>

@@ -2,7 +2,7 @@
 #include "cli/fit_outputs.h"
 
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "io/atomic_file.h"

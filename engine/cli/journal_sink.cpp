@@ -2,7 +2,7 @@
 #include "cli/journal_sink.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <thread>
 
 #include "cli/progress.h"

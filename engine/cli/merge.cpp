@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The verb merge: results of the parts of one study become the result of all of it.
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <set>
 
 #include "cli/commands.h"

@@ -2,7 +2,7 @@
 #include "cli/pace.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include "cli/measure.h"

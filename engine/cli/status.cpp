@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The verb status: how far a run is, while it runs or after.
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"

@@ -2,7 +2,7 @@
 #include "cli/team_run.h"
 
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <new>
 #include <optional>
 

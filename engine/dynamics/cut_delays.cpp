@@ -2,7 +2,7 @@
 // A cut as a system with delays (D8): which delays it has, its gains at a time and on average.
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <memory>
 #include <optional>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "dynamics/machine.h"
+#include "dynamics/state_space.h"
 
 namespace millstudy::dynamics {
 

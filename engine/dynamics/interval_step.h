@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "dynamics/machine.h"
+#include "dynamics/state_space.h"
 
 namespace millstudy::dynamics {
 

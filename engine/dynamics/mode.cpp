@@ -2,7 +2,7 @@
 #include "dynamics/mode.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 

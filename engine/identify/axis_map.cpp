@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "identify/axis_map.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "identify/trace.h"
 

@@ -2,7 +2,7 @@
 #include "identify/choose_model.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 

@@ -2,7 +2,7 @@
 #include "identify/fit_parameters.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 
 #include "core/units.h"

@@ -5,7 +5,7 @@
 #include <ceres/ceres.h>
 #include <cmath>
 #include <complex>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <numeric>
 
 #include "core/error.h"

@@ -2,7 +2,7 @@
 #include "io/fit_result.h"
 
 #include <cstring>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <functional>
 #include <limits>
 #include <variant>

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <hdf5_hl.h>
 #include <sstream>
 

@@ -2,7 +2,7 @@
 #include "io/result_reader.h"
 
 #include <filesystem>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <system_error>
 
 #include "core/error.h"

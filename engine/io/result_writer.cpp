@@ -2,7 +2,7 @@
 #include "io/result_writer.h"
 
 #include <cstring>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <optional>
 #include <stdexcept>
 #include <variant>

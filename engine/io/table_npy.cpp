@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <bit>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ostream>
 #include <string>
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <regex>
 
 namespace millstudy::io {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "cutter/envelope.h"
 #include "cutter/flutes.h"
+#include "dynamics/zeroth_order.h"
 
 namespace millstudy::study {
 
@@ -137,9 +138,8 @@ dynamics::Machine listed_modes(const Case& point) {
   add(point.modes.y, machine.y);
   for (const CoupledModeSection& mode : point.modes.coupled) {
     if (!mode.frequency || mode.residue.size() != 4) continue;
-    Eigen::Matrix2d residue;
-    residue << mode.residue[0], mode.residue[1], mode.residue[2], mode.residue[3];
-    machine.coupled.push_back({mode_of(mode), residue});
+    const std::vector<double>& r = mode.residue;
+    machine.coupled.push_back({mode_of(mode), {r[0], r[1], r[2], r[3]}});
   }
   return machine;
 }

@@ -7,13 +7,17 @@
 
 #include "cutter/cutter.h"
 #include "dynamics/machine.h"
-#include "dynamics/zeroth_order.h"
+#include "dynamics/measured_response.h"
 #include "force/coefficients.h"
 #include "force/engagement.h"
 #include "force/variation.h"
 #include "path/interpolate.h"
 #include "process/stock.h"
 #include "study/setting.h"
+
+namespace millstudy::dynamics {
+struct FrequencyDomain;
+}
 
 namespace millstudy::study {
 

@@ -2,7 +2,7 @@
 #include "study/file_axes.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <set>
 
 namespace millstudy::study {

@@ -2,7 +2,7 @@
 #include "study/file_text.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace millstudy::study {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <string>
 #include <string_view>
 #include <vector>

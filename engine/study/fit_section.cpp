@@ -2,6 +2,7 @@
 // [fit]: the method, what is estimated, and how.
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 
 #include "study/fit_reader.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cassert>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 
 #include "core/error.h"

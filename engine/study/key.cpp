@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/units.h"
 

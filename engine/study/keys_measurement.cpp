@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Keys of [measurement] and what must hold between them.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "study/key_table.h"
 #include "study/kind.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <limits>
 
 #include "core/error.h"

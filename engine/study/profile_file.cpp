@@ -2,7 +2,7 @@
 #include "study/profile_file.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "study/faults.h"
 #include "study/file_text.h"

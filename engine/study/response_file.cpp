@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/response_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 #include "core/units.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <deque>
 #include <exception>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <mutex>
 #include <stdexcept>
 #include <thread>

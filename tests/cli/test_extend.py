@@ -97,16 +97,18 @@ class Extend(ProgramTest):
                                    'sweep.axes."cut.feed_rate_mm_per_min"=[600.0, 700.0]'))
 
     def test_a_journal_does_not_make_an_unrelated_result_welcome(self):
-        self.axes([0.5, 1.0], [600.0])
+        depths = '"cut.radial_depth_mm" = {}'
+        self.write(SLOT.replace('milling = "slot"', 'milling = "up"\nradial_depth_mm = 6.0') +
+                   "[sweep.axes]\n" + depths.format([3.0, 6.0]) + "\n")
         self.millstudy("run", "study.toml")
-        # An unfinished run of another study over it, as after Ctrl-C.
-        other = ["--set", "cutter.helix_deg=40.0", "--set", 'sweep.axes."cut.axial_depth_mm"=[0.5, 1.0, 1.5]']
-        self.millstudy("run", "study.toml", "-o", "part.h5", *other, "--set", "coefficients.Ktc_N_per_mm2=1e308",
-                       "--max-failures", "0", "--block-size", "1", "--threads", "1", code=4)
+        # Beside it the journal of another study's run that stopped early.
+        other = ("--set", "cutter.helix_deg=40.0", "--set", "sweep.axes." + depths.format([12.5, 13.0, 3.0, 6.0]))
+        self.millstudy("run", "study.toml", "-o", "part.h5", *other, "--max-failures", "1", "--block-size", "1",
+                       "--threads", "1", code=4)
         (self.folder / "slot.h5").rename(self.folder / "part.h5")
+        self.assertTrue((self.folder / "part.h5.journal").exists())
         self.assertIn("is of a study with other settings",
-                      self.refused("run", "study.toml", "-o", "part.h5", "--extend", *other, "--set",
-                                   "coefficients.Ktc_N_per_mm2=1e308"))
+                      self.refused("run", "study.toml", "-o", "part.h5", "--extend", *other))
 
     def test_without_a_result_it_is_a_run_like_any_other(self):
         self.axes([0.5, 1.0], [600.0])

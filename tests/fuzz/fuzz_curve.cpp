@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/error.h"
+#include "allow_input_errors.h"
 #include "io/toml_reader.h"
 #include "study/curve_file.h"
 #include "study/profile_file.h"
@@ -14,18 +14,6 @@
 namespace {
 
 using namespace millstudy;
-
-template <class Call>
-void allow_input_errors(const Call& call) {
-  try {
-    call();
-  } catch (const core::InputError& error) {
-    if (error.faults().empty()) std::abort();
-    for (const core::Fault& fault : error.faults()) {
-      if (to_string(fault).empty()) std::abort();
-    }
-  }
-}
 
 void check(const study::StudyCurve& read) {
   const path::Curve& curve = read.curve;

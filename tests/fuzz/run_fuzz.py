@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Builds the fuzzers of the readers of traces, journals and curves with clang++, runs the kept corpus and a few seconds of new inputs.
+"""Builds the fuzzers of all readers with clang++, runs the kept corpus and a few seconds of new inputs.
 
-Usage: run_fuzz.py BUILD_FOLDER [SECONDS [FORMAT ...]]. Without clang++ it is skipped (exit 77). What makes a reader
+Usage: run_fuzz.py BUILD_FOLDER [SECONDS [FORMAT ...]], BUILD_FOLDER within that of a build of the engine. Without clang++ it is skipped (exit 77). What makes a reader
 fail is left in BUILD_FOLDER/found: once it is mended, it belongs in corpus/<format>. matio and HDF5 are not
 instrumented and run in processes of their own: what makes these fail is left in BUILD_FOLDER/contained, and is no
 failure as long as it is refused.
@@ -14,13 +14,15 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-FORMATS = ("curve", "dynoware", "hdf5", "journal", "labview", "matlab", "table", "tdms")
+FORMATS = ("curve", "dynoware", "hdf5", "journal", "labview", "matlab", "study", "table", "tdms")
+ROOT = HERE.parent.parent
+MORE = {"study": (ROOT / "studies", ROOT / "tests" / "cli" / "broken")}  # kept inputs that stand elsewhere
 SKIPPED = 77
 
 
 def build(folder):
     configure = ["cmake", "-S", HERE, "-B", folder, "-G", "Ninja", "-DCMAKE_CXX_COMPILER=clang++",
-                 "-DCMAKE_BUILD_TYPE=None"]
+                 "-DCMAKE_BUILD_TYPE=None", f"-DMILLSTUDY_BUILD={folder.resolve().parent}"]
     if shutil.which("ccache"):
         configure.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     for command in (configure, ["cmake", "--build", folder]):
@@ -38,7 +40,8 @@ def run(folder, name, seconds):
     # A request for too much memory is refused there.
     library = ["-malloc_limit_mb=1000000"] if contained else []
     command = [folder / f"fuzz_{name}", *library, f"-max_total_time={seconds}", "-timeout=60", "-rss_limit_mb=2048",
-               "-max_len=16384", f"-artifact_prefix={found}/", work, HERE / "corpus" / name]
+               "-max_len=16384", f"-artifact_prefix={found}/", work, HERE / "corpus" / name,
+               *MORE.get(name, ())]
     done = subprocess.run([str(word) for word in command], text=True, errors="replace", capture_output=True,
                           env={**os.environ, "ASAN_OPTIONS": "allocator_may_return_null=1"})
     print(name, [line for line in done.stderr.splitlines() if line.startswith(("#", "Done"))][-1:], flush=True)

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <new>
 #include <span>
 #include <sys/resource.h>

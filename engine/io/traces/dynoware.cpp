@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Text exports of Kistler's DynoWare: lines "Key:<separator>value", names, units, rows.
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "io/traces/format.h"
 #include "io/traces/text_table.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Datasets of HDF5 files: results with time histories, MATLAB 7.3 files, any others.
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "io/hdf5.h"

@@ -3,7 +3,7 @@
 // Specification: ni.com, "Specification for the LabVIEW Measurement File (.lvm)".
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <utility>
 
 #include "core/error.h"

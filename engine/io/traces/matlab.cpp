@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MATLAB files before version 7.3, by matio.
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <matio.h>
 #include <memory>
 #include <numeric>

@@ -2,7 +2,7 @@
 // NI TDMS: which channels are read, their values and scales.
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "io/traces/byte_reader.h"

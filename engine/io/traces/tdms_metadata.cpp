@@ -2,7 +2,7 @@
 #include "io/traces/tdms_metadata.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "io/traces/byte_reader.h"
 

@@ -2,7 +2,7 @@
 #include "io/traces/tdms_scale.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 

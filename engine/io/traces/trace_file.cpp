@@ -2,7 +2,7 @@
 #include "io/trace_file.h"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "io/traces/format.h"

@@ -2,7 +2,7 @@
 #include "path/curve.h"
 
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"

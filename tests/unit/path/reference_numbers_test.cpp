@@ -2,7 +2,7 @@
 // Numbers printed in the paper and in the literature, to every digit given. Each test prints how
 // far away it is.
 #include <cmath>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "path/figures.h"

@@ -49,8 +49,8 @@ TEST(Modes, ThatCoupleHaveResidues) {
                   {"residue_per_kg", list(2.0, 0.5, 0.25, 1.0)}})));
   const dynamics::Machine machine = study::machine(resolved(root).base);
   ASSERT_EQ(machine.coupled.size(), 1u);
-  EXPECT_DOUBLE_EQ(machine.coupled[0].residue(0, 1), 500.0);  // [mm/(N s2)]
-  EXPECT_DOUBLE_EQ(machine.coupled[0].residue(1, 0), 250.0);
+  EXPECT_DOUBLE_EQ(machine.coupled[0].residue[1], 500.0);  // [mm/(N s2)]
+  EXPECT_DOUBLE_EQ(machine.coupled[0].residue[2], 250.0);
 }
 
 TEST(Modes, OfTheStudyAreReadBeforeThoseOfItsFile) {

@@ -3,7 +3,7 @@
 // comparison with others.
 #include <cstdio>
 #include <exception>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <string>
 
 #include "io/trace_file.h"
