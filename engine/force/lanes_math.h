@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "force/lanes.h"
 
-/// Elementary functions of eight numbers at once, for the ranges that the samplers need.
+/// Elementary functions of the lanes, for the ranges that the samplers need.
 namespace millstudy::force {
 
 [[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {

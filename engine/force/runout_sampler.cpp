@@ -51,7 +51,7 @@ RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& pi
       per_lag_(1.0 / std::max(lag_, 1e-300)),
       series_(moment_series(edges, rows, 0, piece)) {}
 
-/// One tooth over one piece within one arc: eight spindle angles at a time.
+/// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class RunoutEdge::Sweep {
  public:
   Sweep(const RunoutEdge& edge, const RunoutStretch& stretch, const TeethBefore& before,

@@ -56,8 +56,8 @@ enum class Closed { above, below };
 
 /// One contiguous run of samples being added up: what the prepared edges write to.
 ///
-/// Every add_ function evaluates its formula at the indices given, eight at a time, and adds it to
-/// the rows. Sample n gets the same bits whatever else is in the run.
+/// Every add_ function evaluates its formula at the indices given, a vector at a time, and adds it
+/// to the rows. Sample n gets the same bits whatever else is in the run.
 class SamplingRun {
  public:
   using Row = Harmonics::Row;

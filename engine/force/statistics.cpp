@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double total(const std::array<double, kLanes>& parts) {
+template <std::size_t kParts>
+double total(const std::array<double, kParts>& parts) {
   double sum = 0.0;
   for (const double part : parts) sum += part;
   return sum;
@@ -23,6 +24,8 @@ double total(const std::array<double, kLanes>& parts) {
 
 /// Sums of one quantity in registers, while a piece is taken in.
 class StatisticsAccumulator::Taker {
+  static_assert(kLanes <= kParts);
+
  public:
   explicit Taker(Sums& sums)
       : sums_(sums),
@@ -112,7 +115,7 @@ Statistics StatisticsAccumulator::statistics(const Sums& sums) const {
   }
   double min = sums.min[0];
   double max = sums.max[0];
-  for (int i = 1; i < kLanes; ++i) {
+  for (int i = 1; i < kParts; ++i) {
     min = std::min(min, sums.min[i]);
     max = std::max(max, sums.max[i]);
   }

@@ -37,12 +37,13 @@ class StatisticsAccumulator {
   ForceStatistics result() const;
 
  private:
-  /// Running sums in eight interleaved parts, as vectors take them.
+  static constexpr int kParts = 8;
+  /// Running sums in interleaved parts, as vectors take them: as many as the longest has lanes.
   struct Sums {
-    std::array<double, 8> sum;
-    std::array<double, 8> squares;
-    std::array<double, 8> min;
-    std::array<double, 8> max;
+    std::array<double, kParts> sum;
+    std::array<double, kParts> squares;
+    std::array<double, kParts> min;
+    std::array<double, kParts> max;
   };
   class Taker;
   Statistics statistics(const Sums& sums) const;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr long double kLongPi = 3.14159265358979323846264338327950288L;
 
-/// Calls visit(argument, lane by lane result index) for eight arguments at a time.
+/// Calls visit(argument, lane by lane result index) for as many arguments as there are lanes.
 template <class Visit>
 void by_lanes(const std::vector<double>& arguments, const Visit& visit) {
   for (std::size_t i = 0; i < arguments.size(); i += kLanes) {
@@ -71,15 +71,15 @@ TEST(LanesMath, ArcCotangentIsRightForEveryMagnitude) {
 }
 
 TEST(LanesMath, ComparesLaneByLane) {
-  const Lanes a = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
-  const Lanes b = 9.0 - a;
+  const Lanes a = 1.0 + kLaneIndex;
+  const Lanes b = (kLanes + 1.0) - a;
   const Lanes low = smaller(a, b), high = larger(a, b);
   for (int i = 0; i < kLanes; ++i) {
     EXPECT_EQ(low[i], std::min(a[i], b[i]));
     EXPECT_EQ(high[i], std::max(a[i], b[i]));
   }
-  EXPECT_TRUE(any(a > 7.5));
-  EXPECT_FALSE(any(a > 8.0));
+  EXPECT_TRUE(any(a > kLanes - 0.5));
+  EXPECT_FALSE(any(a > kLanes * 1.0));
 }
 
 }  // namespace
