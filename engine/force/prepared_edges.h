@@ -115,6 +115,7 @@ class RunoutEdge {
   static constexpr int kMostFlutes = 16;
 
  private:
+  struct Limit;
   class Sweep;
   Rows rows_;
   double hand_;

@@ -51,22 +51,32 @@ RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& pi
       per_lag_(1.0 / std::max(lag_, 1e-300)),
       series_(moment_series(edges, rows, 0, piece)) {}
 
+/// A limit of an arc, with what the tooth's own line, which does not turn, is worth there.
+struct RunoutEdge::Limit {
+  Limit(double at, const RunoutStretch& stretch, double feed_of_turn)
+      : angle(at), own_feed(feed_of_turn), terms(stretch.steady_terms(angle, feed_of_turn)) {}
+
+  Angle angle;
+  double own_feed;  ///< [mm]
+  SteadyTerms terms;
+};
+
 /// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class RunoutEdge::Sweep {
  public:
   Sweep(const RunoutEdge& edge, const RunoutStretch& stretch, const TeethBefore& before,
-        const Arc& arc)
+        const Limit& entry, const Limit& exit)
       : edge_(edge),
         stretch_(stretch),
         before_(before),
-        entry_(arc.entry_angle),
-        exit_(arc.exit_angle),
+        entry_(entry),
+        exit_(exit),
         closed_(edge.hand_ > 0.0 ? Closed::above : Closed::below) {
     const double lower = edge_.lower_shift_.value, upper = lower + edge_.hand_ * edge_.lag_;
-    first_ = entry_.value + std::min(lower, upper);
-    entered_ = entry_.value + std::max(lower, upper);
-    leaving_ = exit_.value + std::min(lower, upper);
-    last_ = exit_.value + std::max(lower, upper);
+    first_ = entry.angle.value + std::min(lower, upper);
+    entered_ = entry.angle.value + std::max(lower, upper);
+    leaving_ = exit.angle.value + std::min(lower, upper);
+    last_ = exit.angle.value + std::max(lower, upper);
     if (entered_ < leaving_) find_spans();
   }
 
@@ -85,7 +95,7 @@ class RunoutEdge::Sweep {
         if (span.line == kSeveral) {
           add<Cut::none>(run, pass, span.from, span.to);
         } else if (span.line != kNone) {
-          add_under(run, pass, span);
+          run.add(pass, run.between(pass, span.from, span.to, closed_), span.force);
         }
       }
     });
@@ -100,12 +110,13 @@ class RunoutEdge::Sweep {
   struct Span {
     double from;
     double to;
-    int line;  ///< or kSeveral, or kNone
+    int line;         ///< or kSeveral, or kNone
+    Harmonics force;  ///< of the one line, over the tip's angle
   };
 
   void find_spans() {
-    const TeethBefore::AtPoint lower(before_, edge_.lower_shift_.value);
-    const TeethBefore::AtPoint upper(before_, edge_.upper_shift_.value);
+    const TeethBefore::AtPoint lower(before_, edge_.lower_shift_);
+    const TeethBefore::AtPoint upper(before_, edge_.upper_shift_);
     std::vector<double> bounds = {entered_, leaving_};
     const auto add_bounds = [&](const TeethBefore::AtPoint& point, double shift) {
       point.for_each_change([&](double sin_phi) {
@@ -119,13 +130,18 @@ class RunoutEdge::Sweep {
     add_bounds(upper, edge_.upper_shift_.value);
     std::sort(bounds.begin(), bounds.end());
     for (std::size_t i = 1; i < bounds.size(); ++i) {
-      const double middle = 0.5 * (bounds[i - 1] + bounds[i]);
-      const int line = line_at(lower.smallest_at(std::sin(middle - edge_.lower_shift_.value)),
-                               upper.smallest_at(std::sin(middle - edge_.upper_shift_.value)));
+      const Angle middle(0.5 * (bounds[i - 1] + bounds[i]));
+      const auto sine_at = [&](const Angle& shift) {
+        return middle.sine * shift.cosine - middle.cosine * shift.sine;
+      };
+      const int line = line_at(lower.smallest_at(sine_at(edge_.lower_shift_)),
+                               upper.smallest_at(sine_at(edge_.upper_shift_)));
       if (!spans_.empty() && spans_.back().line == line) {
         spans_.back().to = bounds[i];
       } else {
-        spans_.push_back({bounds[i - 1], bounds[i], line});
+        spans_.push_back({bounds[i - 1], bounds[i], line, {}});
+        if (line >= 0)
+          spans_.back().force = stretch_.whole(edge_.upper_shift_, before_.of_tip(line));
       }
     }
   }
@@ -134,17 +150,6 @@ class RunoutEdge::Sweep {
                      const TeethBefore::AtPoint::Chip& upper) {
     if (lower.which != upper.which || (lower.value < 0.0) != (upper.value < 0.0)) return kSeveral;
     return lower.value < 0.0 ? kNone : lower.which;
-  }
-
-  void add_under(SamplingRun& run, const Pass& pass, const Span& span) const {
-    const AngleTables& tables = run.tables();
-    const IndexRange indices = run.between(pass, span.from, span.to, closed_);
-    run.accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
-      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
-      const ForceLanes force =
-          stretch_.whole(at_end(pass, edge_.upper_shift_, c1, s1), before_.find(span.line, c1, s1));
-      x = force.x, y = force.y, z = force.z, torque = force.torque;
-    });
   }
 
   template <Cut cut>
@@ -187,9 +192,22 @@ class RunoutEdge::Sweep {
     return part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
   }
 
-  [[gnu::always_inline]] ForceLanes up_to(const Angle& limit, const Place& place,
+  /// Where the chip is that of the tooth itself, or none, as at the limits of a slot, one series a
+  /// row is enough.
+  [[gnu::always_inline]] ForceLanes up_to(const Limit& limit, const Place& place,
                                           const Line& line) const {
-    return stretch_.up_to(part_below(Lanes{} + limit.value, place), lanes_of(limit), line);
+    const Lanes part = part_below(Lanes{} + limit.angle.value, place);
+    const auto steady = (line.edge == 0.0) | ((line.p == 0.0) & (line.q == limit.own_feed));
+    ForceLanes force;
+    if (any(line.edge * (steady ? Lanes{} + 1.0 : Lanes{}) != 0.0)) {
+      force = select(steady, stretch_.steady_up_to(part, limit.terms), force);
+      force = {force.x * line.edge, force.y * line.edge, force.z * line.edge,
+               force.torque * line.edge};
+    }
+    if (any(~steady)) {
+      force = select(steady, force, stretch_.up_to(part, lanes_of(limit.angle), line));
+    }
+    return force;
   }
 
   [[gnu::always_inline]] static SineAndCosine lanes_of(const Angle& angle) {
@@ -204,10 +222,10 @@ class RunoutEdge::Sweep {
     constexpr bool cut_below = cut == Cut::lower || cut == Cut::both;
     constexpr bool cut_above = cut == Cut::upper || cut == Cut::both;
     const bool right = edge_.hand_ > 0.0;
-    const Angle& upper_limit = right ? entry_ : exit_;
-    const Angle& lower_limit = right ? exit_ : entry_;
-    const SineAndCosine bottom = cut_below ? lanes_of(lower_limit) : place.lower;
-    const SineAndCosine top = cut_above ? lanes_of(upper_limit) : place.upper;
+    const Limit& upper_limit = right ? entry_ : exit_;
+    const Limit& lower_limit = right ? exit_ : entry_;
+    const SineAndCosine bottom = cut_below ? lanes_of(lower_limit.angle) : place.lower;
+    const SineAndCosine top = cut_above ? lanes_of(upper_limit.angle) : place.upper;
     const Smallest below = smallest_at(bottom, lines, before_.count());
     const Smallest above = smallest_at(top, lines, before_.count());
     ForceLanes force;
@@ -281,8 +299,8 @@ class RunoutEdge::Sweep {
   const RunoutEdge& edge_;
   const RunoutStretch& stretch_;
   const TeethBefore& before_;
-  Angle entry_;
-  Angle exit_;
+  const Limit& entry_;
+  const Limit& exit_;
   Closed closed_;
   // Angles of the tip at which the ends of the piece pass the limits.
   double first_;
@@ -297,10 +315,18 @@ void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, 
   const Angle turn(std::remainder(feed.direction, 2.0 * core::kPi) +
                    (rows_ == Rows::moments ? 0.5 * core::kPi : 0.0));
   const RunoutStretch stretch(series_, k, turn.cosine, turn.sine);
+  const double own_feed = feed.per_tooth * static_cast<double>(edges.flutes().size());
+  std::vector<Limit> limits;
+  for (const Arc& arc : arcs) {
+    limits.emplace_back(arc.entry_angle, stretch, own_feed);
+    limits.emplace_back(arc.exit_angle, stretch, own_feed);
+  }
   for (int flute = first; flute <= last; ++flute) {
     const TeethBefore before(edges, flute, feed);
     run.begin_tooth(Angle(edges.flutes()[flute].position));
-    for (const Arc& arc : arcs) Sweep(*this, stretch, before, arc).add_to(run);
+    for (std::size_t i = 0; i < limits.size(); i += 2) {
+      Sweep(*this, stretch, before, limits[i], limits[i + 1]).add_to(run);
+    }
   }
 }
 

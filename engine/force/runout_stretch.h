@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <complex>
 #include <vector>
 
 #include "force/coefficients.h"
 #include "force/edge_moments.h"
+#include "force/harmonics.h"
 #include "force/lanes_math.h"
 
 /// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
@@ -26,10 +28,19 @@ inline Line operator-(const Line& a, const Line& b) {
   return {a.p - b.p, a.q - b.q, a.edge - b.edge};
 }
 
+/// The line of one reach over the tip angle tau of a tooth: P + i Q = turning exp(i tau) + i feed.
+struct LineOfTip {
+  std::complex<double> turning;  ///< [mm]
+  double feed;                   ///< [mm]
+};
+
 template <class Mask>
 [[gnu::always_inline]] inline Line select(const Mask& mask, const Line& a, const Line& b) {
   return {mask ? a.p : b.p, mask ? a.q : b.q, mask ? a.edge : b.edge};
 }
+
+/// Rows of the terms of a series: the force x, y, z, torque under one line that does not turn.
+using SteadyTerms = std::vector<std::array<double, kRows>>;
 
 struct ForceLanes {
   Lanes x{}, y{}, z{}, torque{};
@@ -43,6 +54,12 @@ struct ForceLanes {
     return *this;
   }
 };
+
+template <class Mask>
+[[gnu::always_inline]] inline ForceLanes select(const Mask& mask, const ForceLanes& a,
+                                                const ForceLanes& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z, mask ? a.torque : b.torque};
+}
 
 /// What the moments of a stretch are worth under the coefficients: the numbers that (F25) needs.
 enum Worth {
@@ -96,14 +113,63 @@ class RunoutStretch {
                  upper, line);
   }
 
-  /// The same where the line is zero at the upper point, and so r sin(delta), delta from there
-  /// down: the force is then r exp(-i b) times functions of the part alone.
+  /// The same as harmonics of the tip's angle, which is `shift` ahead of that of the upper end.
+  Harmonics whole(const Angle& shift, const LineOfTip& line) const {
+    using Complex = std::complex<double>;
+    const Worths<double>& w = whole_;
+    const Complex behind(shift.cosine, shift.sine);  // exp(-i b) is this times exp(-i tau)
+    const Complex g0(w[g0r], w[g0i]), g2 = Complex(w[g2r], w[g2i]) * behind * behind;
+    const Complex first =
+        -0.5 * (std::conj(line.turning) * g0 + line.turning * g2) - Complex(w[er], w[ei]) * behind;
+    const Complex constant = Complex(0.0, 0.5 * line.feed) * g0;
+    const Complex second = Complex(0.0, -0.5 * line.feed) * g2;
+    const Complex axial = Complex(w[vc], w[vs]) * behind, turning = Complex(w[tc], w[ts]) * behind;
+    Harmonics h;
+    h.constant = {constant.real(), constant.imag(), (line.turning * axial).real() + w[ez],
+                  (line.turning * turning).real() + w[et]};
+    h.cos1 = {first.real(), first.imag(), -line.feed * axial.imag(), -line.feed * turning.imag()};
+    h.sin1 = {first.imag(), -first.real(), line.feed * axial.real(), line.feed * turning.real()};
+    h.cos2 = {second.real(), second.imag(), 0.0, 0.0};
+    h.sin2 = {second.imag(), -second.real(), 0.0, 0.0};
+    return h;
+  }
+
+  /// Terms for steady_up_to(): the upper point stays at an angle, the line is Q sin(phi).
+  SteadyTerms steady_terms(const Angle& upper, double q) const {
+    SteadyTerms steady;
+    steady.reserve(terms_.size());
+    const double c = upper.cosine, s = upper.sine;
+    for (const Worths<double>& w : terms_) {
+      const std::complex<double> turned =
+          std::complex<double>(w[g2r], w[g2i]) * std::complex<double>(c * c - s * s, -2.0 * s * c);
+      steady.push_back({-0.5 * q * (w[g0i] - turned.imag()) - (c * w[er] + s * w[ei]),
+                        -0.5 * q * (turned.real() - w[g0r]) - (c * w[ei] - s * w[er]),
+                        q * (s * w[vc] - c * w[vs]) + w[ez], q * (s * w[tc] - c * w[ts]) + w[et]});
+    }
+    return steady;
+  }
+
+  /// up_to() under the line and at the angle that the terms are of.
+  [[gnu::always_inline]] ForceLanes steady_up_to(const Lanes& part,
+                                                 const SteadyTerms& terms) const {
+    const std::array<Lanes, kRows> sum =
+        sum_series<kRows, kRows>(kind_, terms.front().data(), terms.size(), variable_.at(part));
+    return {sum[0], sum[1], sum[2], sum[3]};
+  }
+
+  /// up_to() where the line is zero at the upper point, and so r sin(delta), delta from there down:
+  /// the force is then r exp(-i b) times functions of the part alone.
   [[gnu::always_inline]] ForceLanes up_to_zero(const Lanes& part, const SineAndCosine& upper,
                                                const Line& line) const {
-    const std::array<Lanes, kZeroWorths> w = sum_series<kZeroWorths, kZeroWorths>(
-        kind_, zero_terms_.front().data(), zero_terms_.size(), variable_.at(part));
     const Lanes c = upper.cosine, s = upper.sine;
     const Lanes r = line.p * s - line.q * c;
+    std::array<Lanes, kZeroWorths> w{};
+    if (any(line.edge != 0.0)) {
+      w = sum_zero_terms<kZeroWorths>(part);
+    } else {  // from tooth to tooth: the chip alone
+      const std::array<Lanes, kRows> chip = sum_zero_terms<kRows>(part);
+      std::copy(chip.begin(), chip.end(), w.begin());
+    }
     const Lanes real = r * w[0] - line.edge * w[4];
     const Lanes imaginary = r * w[1] - line.edge * w[5];
     return {c * real + s * imaginary, c * imaginary - s * real, r * w[2] + line.edge * w[6],
@@ -111,6 +177,12 @@ class RunoutStretch {
   }
 
  private:
+  template <int kSeries>
+  [[gnu::always_inline]] std::array<Lanes, kSeries> sum_zero_terms(const Lanes& part) const {
+    return sum_series<kSeries, kZeroWorths>(kind_, zero_terms_.front().data(), zero_terms_.size(),
+                                            variable_.at(part));
+  }
+
   template <class Value>
   [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
                                                  const Line& line) {

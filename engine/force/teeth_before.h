@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <span>
 
 #include "force/chip_law.h"
@@ -16,7 +17,7 @@ class TeethBefore {
  public:
   TeethBefore(const CuttingEdges& edges, int flute, const Feed& feed)
       : offset_(edges.cutter().runout.offset),
-        seen_from_offset_(edges.flutes()[flute].position - edges.cutter().runout.angle),
+        seen_(edges.flutes()[flute].position - edges.cutter().runout.angle),
         zero_(std::remainder(feed.direction, 2.0 * core::kPi) + edges.cutter().runout.angle),
         count_(static_cast<int>(edges.flutes().size())) {
     std::array<Reach, RunoutEdge::kMostFlutes> reaches;
@@ -34,26 +35,33 @@ class TeethBefore {
   [[gnu::always_inline]] void find(const Lanes& c1, const Lanes& s1, Line* lines) const {
     const Lanes cos_a = offset_ * (c1 * zero_.cosine - s1 * zero_.sine);
     const Lanes sin_a = offset_ * (s1 * zero_.cosine + c1 * zero_.sine);
-    for (int m = 0; m < count_; ++m) lines[m] = line(m, cos_a, sin_a);
+    for (int m = 0; m < count_; ++m) {
+      const Before& b = before_[m];
+      lines[m] = {cos_a * b.one_less_cosine - sin_a * b.sine,
+                  b.feed + (sin_a * b.one_less_cosine + cos_a * b.sine), Lanes{} + 1.0};
+    }
   }
 
-  /// The line of one.
-  [[gnu::always_inline]] Line find(int m, const Lanes& c1, const Lanes& s1) const {
-    return line(m, offset_ * (c1 * zero_.cosine - s1 * zero_.sine),
-                offset_ * (s1 * zero_.cosine + c1 * zero_.sine));
+  /// The line of one over the angle of the tooth's tip.
+  LineOfTip of_tip(int m) const {
+    const Before& b = before_[m];
+    return {
+        offset_ * std::complex(seen_.cosine, -seen_.sine) * std::complex(b.one_less_cosine, b.sine),
+        b.feed};
   }
 
   /// Chips over sin(kappa) at one point of the edge, each linear in sin(phi): the teeth before have
   /// passed a fixed distance further out or in.
   class AtPoint {
    public:
-    /// @param lag  of the point behind the tip [rad]
-    AtPoint(const TeethBefore& teeth, double lag) : count_(teeth.count_) {
-      const Angle seen(teeth.seen_from_offset_ - lag);
+    /// @param lag  of the point behind the tip
+    AtPoint(const TeethBefore& teeth, const Angle& lag) : count_(teeth.count_) {
+      const double cosine = teeth.seen_.cosine * lag.cosine + teeth.seen_.sine * lag.sine;
+      const double sine = teeth.seen_.sine * lag.cosine - teeth.seen_.cosine * lag.sine;
       for (int m = 0; m < count_; ++m) {
         const Before& b = teeth.before_[m];
         feed_[m] = b.feed;
-        ahead_[m] = teeth.offset_ * (b.one_less_cosine * seen.cosine + b.sine * seen.sine);
+        ahead_[m] = teeth.offset_ * (b.one_less_cosine * cosine + b.sine * sine);
       }
     }
 
@@ -100,19 +108,13 @@ class TeethBefore {
   };
 
  private:
-  [[gnu::always_inline]] Line line(int m, const Lanes& cos_a, const Lanes& sin_a) const {
-    const Before& b = before_[m];
-    return {cos_a * b.one_less_cosine - sin_a * b.sine,
-            b.feed + (sin_a * b.one_less_cosine + cos_a * b.sine), Lanes{} + 1.0};
-  }
-
   struct Before {
     double feed;             ///< since it passed [mm]
     double one_less_cosine;  ///< of how far ahead it stands
     double sine;
   };
   double offset_;
-  double seen_from_offset_;  ///< position of the tip, from where the offset points [rad]
+  Angle seen_;  ///< position of the tip, from where the offset points
   Angle zero_;
   int count_;
   std::array<Before, RunoutEdge::kMostFlutes> before_;

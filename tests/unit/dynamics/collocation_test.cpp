@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "dynamics/semi_discretization.h"
+#include "dynamics/state_space.h"
 #include "unit/dynamics/insperger.h"
 
 namespace millstudy::dynamics {

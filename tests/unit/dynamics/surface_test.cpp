@@ -12,6 +12,7 @@
 #include "cutter/envelope.h"
 #include "dynamics/floquet.h"
 #include "dynamics/forced_vibration.h"
+#include "dynamics/state_space.h"
 #include "dynamics/time_domain.h"
 #include "force/force_basis.h"
 #include "unit/dynamics/insperger.h"

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "dynamics/depth_limit.h"
+#include "dynamics/state_space.h"
 #include "unit/dynamics/insperger.h"
 
 namespace millstudy::dynamics {

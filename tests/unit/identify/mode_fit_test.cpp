@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "dynamics/state_space.h"
 
 namespace millstudy::identify {
 namespace {
