@@ -64,19 +64,17 @@ template <int kSeries, int kStride>
     }
     return one;
   }
-  const Lanes twice = 2.0 * t;  // Clenshaw
-  std::array<Lanes, kSeries> two{};
-  for (std::size_t m = count - 1; m > 0; --m) {
+  // The polynomials stand once for all series; Clenshaw's sum would take two operations for each.
+  const Lanes twice = 2.0 * t;
+  Lanes before = t, now = Lanes{} + 1.0;
+  for (std::size_t m = 0; m < count; ++m) {
     const double* term = terms + kStride * m;
 #pragma GCC unroll 12
-    for (int k = 0; k < kSeries; ++k) {
-      const Lanes next = term[k] + (twice * one[k] - two[k]);
-      two[k] = one[k];
-      one[k] = next;
-    }
+    for (int k = 0; k < kSeries; ++k) one[k] += term[k] * now;
+    const Lanes next = twice * now - before;
+    before = now;
+    now = next;
   }
-#pragma GCC unroll 12
-  for (int k = 0; k < kSeries; ++k) one[k] = terms[k] + (t * one[k] - two[k]);
   return one;
 }
 
