@@ -45,7 +45,9 @@ Estimate measure(const study::Study& study, const sweep::Layout& layout) {
       kBudget / (static_cast<double>(kMostBlocks) * single.seconds_per_point));
   const std::int64_t size =
       std::clamp<std::int64_t>(affordable, 1, sweep::default_block_size(layout));
-  return size == 1 ? single : measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
+  if (size > 1) return measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
+  // Points that take long may differ by as much: the more of them, the better.
+  return measure_blocks(evaluate, layout, 1, 16 * kMostBlocks, 2.0 * kBudget);
 }
 
 double memory_bytes(const sweep::Layout& layout, double trace_samples_per_point, int threads,

@@ -6,11 +6,15 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <fmt/core.h>
+#include <iterator>
+#include <mutex>
+#include <optional>
 #include <regex>
 
 namespace millstudy::io {
@@ -161,11 +165,16 @@ const Slip kValueSlips[] = {
 
 #undef MILLSTUDY_NUMBER
 
-template <std::size_t N>
-std::string first_of(const Slip (&slips)[N], const std::string& text) {
-  for (const Slip& slip : slips) {
+/// What the first slip that is in the text says; patterns are compiled when they are first needed.
+template <const auto& slips>
+std::string first_of(const std::string& text) {
+  static std::array<std::optional<std::regex>, std::size(slips)> compiled;
+  static std::mutex one_at_a_time;
+  const std::lock_guard guard(one_at_a_time);
+  for (std::size_t i = 0; i < std::size(slips); ++i) {
+    if (!compiled[i]) compiled[i].emplace(slips[i].pattern);
     Match match;
-    if (std::regex_search(text, match, std::regex(slip.pattern))) return slip.say(match);
+    if (std::regex_search(text, match, *compiled[i])) return slips[i].say(match);
   }
   return {};
 }
@@ -208,12 +217,12 @@ std::string hint(std::string_view toml, int line, std::string_view description) 
   if (says("expected comma or closing ']'") && has_value && code.find('[', equals) == code.npos) {
     return "the closing ] of the list above is missing";
   }
-  std::string said = first_of(kLineSlips, code);
+  std::string said = first_of<kLineSlips>(code);
   if (said.empty()) {
     std::string value = has_value ? code.substr(equals + 1) : code;
     value.erase(0, value.find_first_not_of(" \t"));
     const bool is_value = has_value || says("parsing array") || says("parsing inline table");
-    if (is_value) said = first_of(kValueSlips, value);
+    if (is_value) said = first_of<kValueSlips>(value);
   }
   if (!said.empty()) return said;
   // The parser went on to the next key: "expected comma or closing ']', saw 'p'".

@@ -125,7 +125,9 @@ std::vector<Assignment> settings_of_file(const Key& key, const core::Value& valu
   Faults faults;
   const std::function<void(const core::Value&, const std::string&)> read =
       [&](const core::Value& table, const std::string& prefix) {
-        for (const auto& [name, member] : table.table()) {
+        for (const core::Member& entry : table.table()) {
+          const std::string& name = entry.key;
+          const core::Value& member = entry.value;
           const std::string full = fmt::format("{}.{}", prefix, name);
           const Key* inner = kind.find_key(full);
           if (inner && inner->field) {

@@ -16,6 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SKIPPED = 77
 FEEDS = (300, 600, 900, 1200, 1500)
 DEPTHS = (1, 2, 3, 4, 5)
+# The two cases that take minutes fit three records of five, unless all of them are asked for.
+WHOLE = bool(os.environ.get("MILLSTUDY_WHOLE_STUDIES"))
 AVERAGE = {"Ktc": 958.82, "Krc": 251.06, "Kac": 146.39, "Kte": 15.753, "Kre": 19.424, "Kae": 18.206}
 MODES = """[[dynamometer.{axis}]]
 frequency_Hz = {frequency}
@@ -41,7 +43,7 @@ def measured_folder():
     sys.exit(SKIPPED)
 
 
-def flat(folder, keys, more=""):
+def flat(folder, keys, more="", feeds=FEEDS):
     text = f"""schema_version = 1
 [fit]
 name = "flat"
@@ -58,7 +60,7 @@ spindle_speed_rpm = 6000.0
 [trace]
 axes = {{ x = "Fy", y = "Fx", z = "-Fz" }}
 {more}"""
-    for feed in FEEDS:
+    for feed in feeds:
         text += f"""[[record]]
 file = "{folder}/flat_slot_2018/n6000_f{feed}_ap3.csv"
 name = "{feed} mm/min"
@@ -135,8 +137,9 @@ def flat_ringing(program, folder):
                                        ("z", ((1000.0, 1.0), (2000.0, 0.0))))
                     for f, g in pair)
     out = fit(program, flat(folder, 'weights = "records"\nrunout_limit_mm = 0.1\ntolerance = 1e-6\n'
-                            'estimate = ["phase", "spindle_speed", "runout", "offset", "dynamometer"]', modes))
-    check_records(out, [0.84] * 4 + [0.72])
+                            'estimate = ["phase", "spindle_speed", "runout", "offset", "dynamometer"]', modes,
+                            FEEDS if WHOLE else FEEDS[::2]))
+    check_records(out, [0.84] * (len(out["records"]) - 1) + [0.72])
     check_records(out, [-1.0] * 5, "left_out_r_squared")
     for name, estimate in out["estimates"].items():
         if name.endswith("gain"):
@@ -165,12 +168,13 @@ def bull_nose_together(program, folder):
 
 def bull_nose_choice(program, folder):
     """Trials: linear in height, records weighted alike, 0.990/0.991 in the worst record, left out 0.980/0.987."""
-    out = fit(program, bull_nose(folder, 'model = "auto"\nweights = "records"\ntolerance = 1e-6'))
+    out = fit(program, bull_nose(folder, 'model = "auto"\nweights = "records"\ntolerance = 1e-6',
+                                 DEPTHS if WHOLE else DEPTHS[::2]))
     reason = next(remark for remark in out["remarks"] if remark.startswith("model "))
     print(f"     {reason}")
     check("it takes coefficients linear in height", reason.startswith("model per_height was chosen"))
     check_records(out, [0.985] * 5)
-    check_records(out, [0.975] * 5, "left_out_r_squared")
+    check_records(out, [0.975 if WHOLE else 0.97] * 5, "left_out_r_squared")  # two records predict less well than four
 
 
 CASES = {case.__name__: case for case in (flat_average, flat_rigid, flat_ringing, bull_nose_each, bull_nose_wandering,
