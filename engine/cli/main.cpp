@@ -197,7 +197,6 @@ int main(int argc, char** argv) {
   }
   cli::open_standard_streams();
   cli::report_full_disk_as_error();
-  cli::keep_freed_memory();
   const int code = guarded([&] {
     if (*plan) return cli::plan(study);
     if (*run) {

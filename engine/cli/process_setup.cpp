@@ -4,7 +4,6 @@
 #include <csignal>
 #include <fcntl.h>
 #include <initializer_list>
-#include <malloc.h>
 #include <unistd.h>
 
 namespace millstudy::cli {
@@ -17,14 +16,6 @@ void open_standard_streams() {
 
 void report_full_disk_as_error() {
   std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void keep_freed_memory() {
-#ifdef M_MMAP_THRESHOLD
-  constexpr int kLargestBuffer = 32 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLargestBuffer);
-#endif
 }
 
 }  // namespace millstudy::cli

@@ -11,8 +11,4 @@ void open_standard_streams();
 /// would end the program and leave the temporary file.
 void report_full_disk_as_error();
 
-/// Memory that is given back stays with the process: buffers of chunks come and go by the thousand,
-/// and getting each from the system anew was a quarter of the time of a merge.
-void keep_freed_memory();
-
 }  // namespace millstudy::cli
