@@ -37,7 +37,7 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
 }
 
 Estimate measure(const study::Study& study, const sweep::Layout& layout) {
-  constexpr double kBudget = 1.0;  // [s], each time
+  constexpr double kBudget = 1.0;  // [s]
   constexpr std::int64_t kMostBlocks = 16;
   const sweep::EvaluateBlock evaluate = study::block_evaluator(study);
   const Estimate single = measure_blocks(evaluate, layout, 1, kMostBlocks, kBudget);
@@ -46,8 +46,11 @@ Estimate measure(const study::Study& study, const sweep::Layout& layout) {
   const std::int64_t size =
       std::clamp<std::int64_t>(affordable, 1, sweep::default_block_size(layout));
   if (size > 1) return measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
-  // Points that take long may differ by as much: the more of them, the better.
-  return measure_blocks(evaluate, layout, 1, 16 * kMostBlocks, 2.0 * kBudget);
+  // Single points may differ much: more of them, as many as are affordable, for the budget would
+  // leave out the end of the study if there were too many.
+  const double more = std::min(256.0, 2.0 * kBudget / single.seconds_per_point);
+  if (more <= kMostBlocks || single.measured_points == layout.points()) return single;
+  return measure_blocks(evaluate, layout, 1, static_cast<std::int64_t>(more), 2.0 * kBudget);
 }
 
 double memory_bytes(const sweep::Layout& layout, double trace_samples_per_point, int threads,

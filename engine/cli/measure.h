@@ -23,7 +23,8 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
                         std::int64_t block_size, std::int64_t most_blocks, double budget);
 
 /// Points one by one first, since nobody knows how slow they are; then, where they are fast, whole
-/// blocks, in which points share work as they do in a run.
+/// blocks, in which points share work as they do in a run, and else more single points if there is
+/// time for them.
 Estimate measure(const study::Study& study, const sweep::Layout& layout);
 
 /// Memory of a run [bytes]: one chunk a column in the writer, and the blocks in flight with the

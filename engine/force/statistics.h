@@ -28,7 +28,8 @@ struct ForceStatistics {
 
 /// Statistics of a history that comes in pieces, none of which is kept.
 ///
-/// The order of summation is fixed by the pieces alone, so equal pieces give equal bits.
+/// The order of summation is fixed by the pieces and the instruction set, so that equal pieces give
+/// equal bits on machines of one kind.
 class StatisticsAccumulator {
  public:
   StatisticsAccumulator();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target of study files and fit files: any text gives one or an InputError. What follows
-// a zero byte is the text of every file that is named.
+// a zero byte is the text of every file that is named. Only the readers of TOML and of studies are
+// instrumented: what reads the sections of fit files runs as it was built.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
