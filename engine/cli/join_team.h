@@ -7,7 +7,7 @@
 
 namespace millstudy::cli {
 
-/// The processes that mpirun or srun started together with this one; this one alone in a program
+/// The processes that mpirun started together with this one; this one alone in a program
 /// without MPI, and where nobody started more.
 std::unique_ptr<sweep::Team> join_team();
 

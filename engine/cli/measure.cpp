@@ -3,21 +3,34 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numeric>
 
 namespace millstudy::cli {
+namespace {
+
+/// A step that visits all of so many strata in turn, and spreads any number of the first evenly.
+std::int64_t spreading_step(std::int64_t strata) {
+  constexpr double kGoldenPart = 0.6180339887498949;
+  auto step = static_cast<std::int64_t>(std::ceil(kGoldenPart * static_cast<double>(strata)));
+  while (std::gcd(step, strata) != 1) ++step;
+  return step;
+}
+
+}  // namespace
 
 Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layout& layout,
                         std::int64_t block_size, std::int64_t most_blocks, double budget) {
   const std::int64_t blocks = (layout.points() + block_size - 1) / block_size;
   const std::int64_t tried = std::min(blocks, most_blocks);
+  const std::int64_t step = spreading_step(tried);
   Estimate estimate;
   double samples = 0.0;
   std::int64_t skipped = 0;
   double seconds = 0.0;
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t i = 0; i < tried && (i == 0 || seconds < budget); ++i) {
-    // Every seventh stratum in turn: what the budget leaves out is then spread evenly, too.
-    const std::int64_t stratum = tried % 7 == 0 ? i : 7 * i % tried;
+    const std::int64_t stratum = step * i % tried;
     const std::int64_t first = (2 * stratum + 1) * blocks / (2 * tried) * block_size;
     sweep::Block block(first, std::min(block_size, layout.points() - first), layout.columns.size(),
                        layout.traces);
@@ -46,11 +59,10 @@ Estimate measure(const study::Study& study, const sweep::Layout& layout) {
   const std::int64_t size =
       std::clamp<std::int64_t>(affordable, 1, sweep::default_block_size(layout));
   if (size > 1) return measure_blocks(evaluate, layout, size, kMostBlocks, kBudget);
-  // Single points may differ much: more of them, as many as are affordable, for the budget would
-  // leave out the end of the study if there were too many.
-  const double more = std::min(256.0, 2.0 * kBudget / single.seconds_per_point);
-  if (more <= kMostBlocks || single.measured_points == layout.points()) return single;
-  return measure_blocks(evaluate, layout, 1, static_cast<std::int64_t>(more), 2.0 * kBudget);
+  // Single points may differ much: more of them, unless all are measured or one takes too long.
+  const bool enough = single.measured_points == layout.points();
+  if (enough || single.seconds_per_point > kBudget) return single;
+  return measure_blocks(evaluate, layout, 1, 16 * kMostBlocks, 2.0 * kBudget);
 }
 
 double memory_bytes(const sweep::Layout& layout, double trace_samples_per_point, int threads,

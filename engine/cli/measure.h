@@ -16,7 +16,7 @@ struct Estimate {
 };
 
 /// Times blocks of one size spread evenly over the study, at most most_blocks of them, until the
-/// budget is spent; at least one.
+/// budget is spent; at least one. What the budget leaves out is spread evenly, too.
 ///
 /// @param budget  [s]; exceeded by the last block at most
 Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layout& layout,

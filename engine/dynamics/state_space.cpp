@@ -2,7 +2,6 @@
 #include "dynamics/state_space.h"
 
 #include <Eigen/SVD>
-#include <cmath>
 #include <complex>
 
 namespace millstudy::dynamics {

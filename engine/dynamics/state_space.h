@@ -30,7 +30,8 @@ struct StateSpace {
   Eigen::MatrixXd velocity() const;
 };
 
-/// The state space of a machine; residues of rank one take two states, others four.
+/// The state space of a machine; residues of rank one take two states, others four. Exact to
+/// rounding. Throws core::InputError as check() does.
 StateSpace state_space(const Machine& machine);
 
 }  // namespace millstudy::dynamics

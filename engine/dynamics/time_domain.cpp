@@ -10,6 +10,7 @@
 #include "core/watch.h"
 #include "dynamics/interval_step.h"
 #include "dynamics/simulated_edge.h"
+#include "dynamics/state_space.h"
 
 namespace millstudy::dynamics {
 namespace {

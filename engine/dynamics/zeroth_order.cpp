@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "dynamics/state_space.h"
 
 namespace millstudy::dynamics {
 namespace {

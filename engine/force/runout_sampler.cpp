@@ -192,8 +192,8 @@ class RunoutEdge::Sweep {
     return part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
   }
 
-  /// Where the chip is that of the tooth itself, or none, as at the limits of a slot, one series a
-  /// row is enough.
+  /// Where the chip is that of the tooth itself, as at the limits of a slot, one series a row is
+  /// enough, and none where there is no chip. Each lane has its own bits, whatever its neighbours.
   [[gnu::always_inline]] ForceLanes up_to(const Limit& limit, const Place& place,
                                           const Line& line) const {
     const Lanes part = part_below(Lanes{} + limit.angle.value, place);

@@ -134,17 +134,15 @@ class RunoutStretch {
     return h;
   }
 
-  /// Terms for steady_up_to(): the upper point stays at an angle, the line is Q sin(phi).
+  /// Terms for steady_up_to(): the upper point stays at an angle, the line is q sin(phi), q [mm].
   SteadyTerms steady_terms(const Angle& upper, double q) const {
+    const SineAndCosine at = {Lanes{} + upper.sine, Lanes{} + upper.cosine};
+    const Line line = {Lanes{}, Lanes{} + q, Lanes{} + 1.0};
     SteadyTerms steady;
     steady.reserve(terms_.size());
-    const double c = upper.cosine, s = upper.sine;
     for (const Worths<double>& w : terms_) {
-      const std::complex<double> turned =
-          std::complex<double>(w[g2r], w[g2i]) * std::complex<double>(c * c - s * s, -2.0 * s * c);
-      steady.push_back({-0.5 * q * (w[g0i] - turned.imag()) - (c * w[er] + s * w[ei]),
-                        -0.5 * q * (turned.real() - w[g0r]) - (c * w[ei] - s * w[er]),
-                        q * (s * w[vc] - c * w[vs]) + w[ez], q * (s * w[tc] - c * w[ts]) + w[et]});
+      const ForceLanes f = force(w, at, line);
+      steady.push_back({f.x[0], f.y[0], f.z[0], f.torque[0]});
     }
     return steady;
   }

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Builds the fuzzers of all readers with clang++, runs the kept corpus and a few seconds of new inputs.
 
-Usage: run_fuzz.py BUILD_FOLDER [SECONDS [FORMAT ...]], BUILD_FOLDER within that of a build of the engine. Without clang++ it is skipped (exit 77). What makes a reader
-fail is left in BUILD_FOLDER/found: once it is mended, it belongs in corpus/<format>. matio and HDF5 are not
-instrumented and run in processes of their own: what makes these fail is left in BUILD_FOLDER/contained, and is no
-failure as long as it is refused.
+Usage: run_fuzz.py BUILD_FOLDER [SECONDS [FORMAT ...]], BUILD_FOLDER within that of a build of the engine. Without
+clang++ it is skipped (exit 77). What makes a reader fail is left in BUILD_FOLDER/found: once it is mended, it belongs
+in corpus/<format>. matio and HDF5 are not instrumented and run in processes of their own: what makes these fail is
+left in BUILD_FOLDER/contained, and is no failure as long as it is refused.
 """
 import concurrent.futures
 import os
