@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <tbb/global_control.h>
 
 #include "cli/commands.h"
@@ -27,13 +25,6 @@ namespace millstudy::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Forces on the tool from the file of a record.
 identify::PreparedTrace read_trace(const study::TraceSource& source, const std::string& folder) {
@@ -163,7 +154,7 @@ int fit(const FitOptions& options) {
   table.condition_number = report.condition_number;
   table.words = warnings;
 
-  const std::string text = read_text(options.file);
+  const std::string text = io::read_text(options.file);
   report.attributes = {
       {"title", file.description.empty() ? file.name : file.description},
       {"name", file.name},

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/core.h>
-#include <fstream>
-#include <sstream>
 
 #include "core/error.h"
 #include "io/response_file.h"
@@ -113,13 +111,6 @@ core::Value read_named(const std::string& path) {
   return io::is_response_file(path) ? io::read_response_file(path) : io::read_toml(path);
 }
 
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 OpenStudy open_study(const StudyOptions& options) {
@@ -131,7 +122,7 @@ OpenStudy open_study(const StudyOptions& options) {
     changes.push_back(change);
     merge(root, std::move(change));
   }
-  OpenStudy open{study::resolve(root, read_named), read_text(options.file), ""};
+  OpenStudy open{study::resolve(root, read_named), io::read_text(options.file), ""};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     refuse_swept(open.study, changes[i], "", options.overrides[i]);
   }

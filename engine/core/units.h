@@ -8,6 +8,7 @@
 namespace millstudy::core {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kTurn = 2.0 * kPi;  // [rad]
 
 constexpr double rad_from_deg(double deg) {
   return deg * (kPi / 180.0);

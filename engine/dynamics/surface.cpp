@@ -12,7 +12,6 @@
 namespace millstudy::dynamics {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
 constexpr int kSamplingLengths = 5;
 
 }  // namespace
@@ -33,7 +32,7 @@ std::vector<MachinedWall::Pass> MachinedWall::passes(double z) const {
   for (const cutter::Flute& flute : edges_.flutes()) {
     const double position = flute.position - flute.helix_tangent * lag;
     const double angle = at_wall - position;
-    all.push_back({(angle - kTurn * std::floor(angle / kTurn)) / speed_,
+    all.push_back({(angle - core::kTurn * std::floor(angle / core::kTurn)) / speed_,
                    radius + cutter::runout_at(edges_.cutter().runout, position, z)});
   }
   return all;
@@ -53,7 +52,7 @@ double MachinedWall::location_error(double z) const {
 
 /// Where the tooth of a pass is as it passes a place along the feed: (D33) solved for the time.
 double MachinedWall::time_at(const Pass& pass, double x) const {
-  const double feed_rate = feed_per_turn_ * speed_ / kTurn;
+  const double feed_rate = feed_per_turn_ * speed_ / core::kTurn;
   double time =
       pass.time + (x - feed_rate * pass.time) / (feed_rate + side_ * pass.radius * speed_);
   for (int step = 0; step < 30; ++step) {
@@ -71,7 +70,7 @@ std::vector<double> MachinedWall::profile(double z, int samples) const {
   // Each tooth's arc over the feed of a turn to either side of where it passes the wall, as a
   // table.
   constexpr int kHalf = 24, kMargin = 2;
-  const double feed_rate = feed_per_turn_ * speed_ / kTurn;
+  const double feed_rate = feed_per_turn_ * speed_ / core::kTurn;
   const double spacing = 1.1 * feed_per_turn_ / kHalf;
   std::vector<double> offsets(samples, -1e300);
   for (const Pass& pass : passes(z)) {

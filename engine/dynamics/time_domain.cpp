@@ -15,7 +15,6 @@
 namespace millstudy::dynamics {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
 constexpr int kTurnsBefore = 2;
 constexpr int kSamples = 24;  // of the position, per turn, for the verdict
 
@@ -53,12 +52,12 @@ class Simulation {
         leaves_(settings.tool_leaves_cut),
         damping_(settings.process_damping / (spindle_speed * cutter::radius(edges.cutter()))),
         velocity_(space_.velocity()),
-        feed_per_angle_(settings.feed_per_tooth * edges.cutter().flutes / kTurn) {
+        feed_per_angle_(settings.feed_per_tooth * edges.cutter().flutes / core::kTurn) {
     const double cycles = fastest(coefficients, edges) / spindle_speed;  // of vibration in a turn
     // A multiple of the samples; 360 steps a turn at least, for the arc.
     const int least = std::max(360, static_cast<int>(settings.steps_per_cycle * cycles));
     steps_ = kSamples * ((least + kSamples - 1) / kSamples);
-    angle_step_ = kTurn / steps_;
+    angle_step_ = core::kTurn / steps_;
     step_ = interval_step(space_, Eigen::Matrix2d::Zero(), angle_step_ / spindle_speed, 1);
     state_ = Eigen::VectorXd::Zero(space_.states());
     places_.assign((kTurnsBefore + 1) * steps_ + 2, Eigen::Vector2d::Zero());
@@ -145,9 +144,9 @@ class Simulation {
     const double width = arc_.exit_angle - arc_.entry_angle;
     for (const SimulatedEdge::Disc& disc : edge_.discs()) {
       // The part of the step in which the disc is in the arc.
-      double past = std::fmod(from + disc.tip - arc_.entry_angle, kTurn);
-      if (past < 0.0) past += kTurn;
-      if (past > kTurn - angle_step_) past -= kTurn;
+      double past = std::fmod(from + disc.tip - arc_.entry_angle, core::kTurn);
+      if (past < 0.0) past += core::kTurn;
+      if (past > core::kTurn - angle_step_) past -= core::kTurn;
       const double begin = std::max(past, 0.0), end = std::min(past + angle_step_, width);
       if (end <= begin) continue;
       const double phi = arc_.entry_angle + 0.5 * (begin + end);
@@ -233,7 +232,7 @@ Simulated simulate(const Machine& machine, const cutter::Cutter& cutter,
   for (Eigen::Index q = 0; q < space.a.rows(); q += 2) {
     slowest = std::min(slowest, -0.5 * space.a(q + 1, q + 1));
   }
-  const double settling = 12.0 * spindle_speed / (kTurn * std::max(slowest, 1e-300));
+  const double settling = 12.0 * spindle_speed / (core::kTurn * std::max(slowest, 1e-300));
   const int settle = static_cast<int>(std::min(2000.0, kTurnsBefore + 1.0 + settling));
   double largest = 0.0;
   if (settings.feed_per_tooth > 0.0) {

@@ -36,12 +36,11 @@ void add_cylinder(Basis<double>& basis, const CuttingEdges& edges, int flute,
 }  // namespace
 
 double angle_past_first_limit(double helix_tangent, const Arc& arc, double tip_angle) {
-  constexpr double kTurn = 2.0 * core::kPi;
   const double ahead =
       hand(helix_tangent) > 0.0 ? tip_angle - arc.entry_angle : arc.exit_angle - tip_angle;
-  const double rest = std::fmod(ahead, kTurn);
-  const double past = rest < 0.0 ? rest + kTurn : rest;
-  if (past < kAngleSnap || past > kTurn - kAngleSnap) return 0.0;
+  const double rest = std::fmod(ahead, core::kTurn);
+  const double past = rest < 0.0 ? rest + core::kTurn : rest;
+  if (past < kAngleSnap || past > core::kTurn - kAngleSnap) return 0.0;
   const double width = arc.exit_angle - arc.entry_angle;
   return std::abs(past - width) < kAngleSnap ? width : past;
 }

@@ -17,8 +17,6 @@
 namespace millstudy::identify {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
-
 /// Wall time since the last lap.
 class Clock {
  public:
@@ -37,7 +35,7 @@ RecordFit record_fit(const JointProblem& problem, std::size_t r) {
   const double last = static_cast<double>(model.samples() - 1);
   RecordFit out;
   const double angle = model.angle_at(state, 0.0);
-  out.phase = angle - kTurn * std::floor(angle / kTurn);
+  out.phase = angle - core::kTurn * std::floor(angle / core::kTurn);
   out.spindle_speed = state.spindle_speed;
   out.feed_per_tooth = model.feed_per_tooth(state.spindle_speed);
   out.runout.offset = std::hypot(state.runout[0], state.runout[1]);

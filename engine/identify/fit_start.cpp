@@ -15,8 +15,6 @@
 namespace millstudy::identify {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
-
 /// A phase and the coefficients that fit it best.
 struct Candidate {
   double phase;
@@ -33,9 +31,9 @@ class PhaseScan {
       if (settings.axes[axis] && turn.trace.has_axis(axis)) axes_.push_back(axis);
     }
     force::ForceSensitivity kernel(cutter, turn.engagement, {});
-    const double feed = turn.feed_rate * kTurn / (turn.spindle_speed * cutter.flutes);
+    const double feed = turn.feed_rate * core::kTurn / (turn.spindle_speed * cutter.flutes);
     for (int i = 0; i < bins_; ++i) {
-      const force::Sensitivity at = kernel.at(kTurn * i / bins_, feed, {});
+      const force::Sensitivity at = kernel.at(core::kTurn * i / bins_, feed, {});
       table_.push_back(at.coefficient);
     }
   }
@@ -67,7 +65,8 @@ class PhaseScan {
     Eigen::MatrixXd gram = a.transpose() * a;
     gram.diagonal().array() += 1e-12;  // columns that are alike, or empty, share and stay small
     const Eigen::VectorXd x = gram.ldlt().solve(a.transpose() * b);
-    Candidate candidate{kTurn * (shift + 0.5 * (bins_ - 1)) / bins_, (b - a * x).squaredNorm(), {}};
+    Candidate candidate{
+        core::kTurn * (shift + 0.5 * (bins_ - 1)) / bins_, (b - a * x).squaredNorm(), {}};
     for (int c = 0; c < 6; ++c) {
       candidate.k[c] = settings_.known[c].fixed.value_or(x[c] / scale[c]);
     }
@@ -147,7 +146,7 @@ double unexplained_part(const cutter::Cutter& cutter, const Record& turn) {
 }
 
 void renumber_flutes(RecordState& state, int flutes, int steps) {
-  const double angle = kTurn * steps / flutes;
+  const double angle = core::kTurn * steps / flutes;
   state.phase += angle;
   const double c = std::cos(angle), s = std::sin(angle);
   state.runout = {c * state.runout[0] + s * state.runout[1],
@@ -180,7 +179,7 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
   } else {
     phases = best_phases(cutter, turn, one);
   }
-  const double feed = record.feed_rate * kTurn / (spindle_speed * cutter.flutes);
+  const double feed = record.feed_rate * core::kTurn / (spindle_speed * cutter.flutes);
   std::vector<RecordState> starts;
   for (const Candidate& phase : phases) {
     RecordState state;
@@ -197,7 +196,8 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
     }
     for (int i = 0; i < 8; ++i) {
       const double offset = (i % 2 == 0 ? 0.05 : 0.4) * feed;
-      state.runout = {offset * std::cos(kTurn * i / 8.0), offset * std::sin(kTurn * i / 8.0)};
+      state.runout = {offset * std::cos(core::kTurn * i / 8.0),
+                      offset * std::sin(core::kTurn * i / 8.0)};
       starts.push_back(state);
     }
   }
@@ -211,7 +211,7 @@ RecordState find_start(const cutter::Cutter& cutter, const Record& record,
   start.phase -= half_turn;
   start.phase_drift.assign(settings.phase_drift_knots, 0.0);
   if (settings.phase != Estimated::no && cutter::has_equal_flutes(cutter)) {
-    const double pitch = kTurn / cutter.flutes;
+    const double pitch = core::kTurn / cutter.flutes;
     renumber_flutes(start, cutter.flutes, -static_cast<int>(std::floor(start.phase / pitch)));
   }
   return start;

@@ -16,7 +16,6 @@
 namespace millstudy::identify {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 double median(std::vector<double> values) {

@@ -18,10 +18,6 @@
 namespace millstudy::io {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw core::InputError({{core::Place{path, 0}, why}});
-}
-
 std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
@@ -29,17 +25,19 @@ std::string folder_of(const std::string& path) {
 
 void check_target(const std::string& path) {
   struct stat status {};
-  if (path.empty() || path.back() == '/') refuse(path, "is not the name of a file");
+  if (path.empty() || path.back() == '/')
+    throw core::InputError({path, 0}, "is not the name of a file");
   if (::stat(path.c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) refuse(path, "is a folder, not a file");
-    if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file");
+    if (S_ISDIR(status.st_mode)) throw core::InputError({path, 0}, "is a folder, not a file");
+    if (!S_ISREG(status.st_mode)) throw core::InputError({path, 0}, "is not a regular file");
   }
   const std::string folder = folder_of(path);
   if (::stat(folder.c_str(), &status) != 0) {
-    refuse(path, fmt::format("cannot be written: folder {}: {}", folder, std::strerror(errno)));
+    throw core::InputError(
+        {path, 0}, fmt::format("cannot be written: folder {}: {}", folder, std::strerror(errno)));
   }
   if (!S_ISDIR(status.st_mode)) {
-    refuse(path, fmt::format("cannot be written: {} is not a folder", folder));
+    throw core::InputError({path, 0}, fmt::format("cannot be written: {} is not a folder", folder));
   }
 }
 
@@ -60,17 +58,18 @@ bool still_names(const std::string& path, int fd) {
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(path_ + ".tmp") {
   check_target(path_);
   fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-  if (fd_ < 0) refuse(path_, fmt::format("cannot be written: {}", std::strerror(errno)));
+  if (fd_ < 0)
+    throw core::InputError({path_, 0}, fmt::format("cannot be written: {}", std::strerror(errno)));
   // A file system without locks (ENOLCK, EINVAL) is no reason to refuse.
   const bool taken = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (taken || !still_names(temporary_, fd_)) {
     ::close(fd_);
-    refuse(path_, "is being written by another process");
+    throw core::InputError({path_, 0}, "is being written by another process");
   }
   struct stat status {};
   if (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode)) return;
   ::close(fd_);
-  refuse(temporary_, "is in the way: not a regular file");
+  throw core::InputError({temporary_, 0}, "is in the way: not a regular file");
 }
 
 AtomicFile::~AtomicFile() {

@@ -22,10 +22,6 @@ constexpr std::int64_t kMostPoints = std::int64_t{1} << 40;
 constexpr std::int64_t kMostReasons = 1 << 20;
 constexpr std::array<const char*, 4> kStatusWords = {"ok", "failed", "skipped", "not_run"};
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw core::InputError({{core::Place{path, 0}, why}});
-}
-
 Handle open(hid_t file, const std::string& name) {
   return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), "open a variable"};
 }
@@ -122,14 +118,17 @@ std::vector<std::string> words(const Cells& cells, const Texts& texts, const std
 
 PointTable::PointTable(const std::string& path) : path_(path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "is no file that can be read");
+  if (!std::filesystem::is_regular_file(path, error))
+    throw core::InputError({path, 0}, "is no file that can be read");
   file_ = hdf5::open_file_to_read(path);
-  if (!is_dataset(file_.get(), "status")) refuse(path, "is no result of a study: it has no status");
+  if (!is_dataset(file_.get(), "status"))
+    throw core::InputError({path, 0}, "is no result of a study: it has no status");
   const Handle status = open(file_.get(), "status");
   shape_ = hdf5::shape_of(status.get());
   dimensions_ = dimensions_of(status.get(), shape_.size());
   for (const std::int64_t length : shape_) {
-    if (length <= 0 || points_ > kMostPoints / length) refuse(path, "has an impossible shape");
+    if (length <= 0 || points_ > kMostPoints / length)
+      throw core::InputError({path, 0}, "has an impossible shape");
     points_ *= length;
   }
   add_coordinates();
@@ -140,10 +139,12 @@ void PointTable::add_coordinates() {
   std::int64_t stride = points_;
   for (std::size_t d = 0; d < shape_.size(); ++d) {
     stride /= shape_[d];
-    if (dimensions_[d].empty()) refuse(path_, "has a dimension without a coordinate");
+    if (dimensions_[d].empty())
+      throw core::InputError({path_, 0}, "has a dimension without a coordinate");
     PointColumn column = make_column(open(file_.get(), dimensions_[d]), dimensions_[d]);
     const Shape shape = hdf5::shape_of(column.dataset.get());
-    if (shape != Shape{shape_[d]}) refuse(path_, "has a coordinate of the wrong length");
+    if (shape != Shape{shape_[d]})
+      throw core::InputError({path_, 0}, "has a coordinate of the wrong length");
     if (shape_.size() > 1 || shape_[d] < (1 << 16)) {
       column.values = read_cells(column.dataset.get(), column.kind, shape, 0, shape[0]);
       column.stride = stride;
@@ -153,7 +154,8 @@ void PointTable::add_coordinates() {
   std::istringstream names(text_attribute(open(file_.get(), "status").get(), "coordinates"));
   for (std::string name; names >> name;) {
     Handle dataset = open(file_.get(), name);
-    if (hdf5::shape_of(dataset.get()) != shape_) refuse(path_, "has an odd coordinate " + name);
+    if (hdf5::shape_of(dataset.get()) != shape_)
+      throw core::InputError({path_, 0}, "has an odd coordinate " + name);
     columns_.push_back(make_column(std::move(dataset), name));
   }
 }
@@ -180,7 +182,7 @@ void PointTable::add_variables() {
   const Handle table = open(file_.get(), "failure");
   const Shape length = hdf5::shape_of(table.get());
   if (hdf5::shape_of(codes.get()) != shape_ || length.size() != 1 || length[0] > kMostReasons) {
-    refuse(path_, "has a damaged table of failures");
+    throw core::InputError({path_, 0}, "has a damaged table of failures");
   }
   reasons_ = hdf5::read_texts(table.get(), length, 0, length[0]);
   if (!reasons_.empty()) reasons_[0].clear();

@@ -14,10 +14,6 @@
 namespace millstudy::io {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw core::InputError({path, 0}, why);
-}
-
 sweep::Coordinate coordinate(const PointTable& table, const PointColumn& column) {
   sweep::Coordinate c{column.name, column.study_key, column.units, column.long_name, {}};
   const bool grid = column.stride > 0;
@@ -62,7 +58,7 @@ struct ResultBlocks::Open {
     for (const PointColumn& c : table.columns()) {
       if (c.kind == kind) return c;
     }
-    refuse(path, "is no result of a study: it has no status or no failures");
+    throw core::InputError({path, 0}, "is no result of a study: it has no status or no failures");
   }
 
   std::string path;
@@ -97,7 +93,7 @@ ResultBlocks::ResultBlocks(const std::string& path) {
       if (name != "Conventions") layout.attributes.emplace_back(name, value);
     }
   } catch (const hdf5::Error& error) {
-    refuse(path, fmt::format("is no readable result file: {}", error.what()));
+    throw core::InputError({path, 0}, fmt::format("is no readable result file: {}", error.what()));
   }
 }
 
@@ -120,7 +116,8 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
     const std::vector<double> status =
         open.table.numbers(open.column(PointColumn::Kind::status), first, count);
     for (std::int64_t i = 0; i < count; ++i) {
-      if (!(status[i] >= 0.0 && status[i] <= 3.0)) refuse(open.path, "has an unknown status");
+      if (!(status[i] >= 0.0 && status[i] <= 3.0))
+        throw core::InputError({open.path, 0}, "has an unknown status");
       block.status[i] = static_cast<sweep::Status>(static_cast<std::int8_t>(status[i]));
     }
     const bool any = std::any_of(block.status.begin(), block.status.end(),
@@ -145,7 +142,7 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
       sweep::Trace& trace = block.traces[i];
       const std::int64_t samples = open.traces->length[0];
       if (start[i] < 0 || length[i] < 0 || start[i] > samples - length[i]) {
-        refuse(open.path, "has a damaged table of traces");
+        throw core::InputError({open.path, 0}, "has a damaged table of traces");
       }
       const std::array<std::vector<float>*, 5> channels = {
           &trace.time, &trace.angle, &trace.force_x, &trace.force_y, &trace.force_z};
@@ -157,7 +154,7 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
       }
     }
   } catch (const hdf5::Error& error) {
-    refuse(open.path, fmt::format("cannot be read: {}", error.what()));
+    throw core::InputError({open.path, 0}, fmt::format("cannot be read: {}", error.what()));
   }
   return block;
 }

@@ -44,10 +44,6 @@ using core::Value;
 constexpr std::size_t kLargestFile = 8u << 20;
 constexpr int kMostKeyParts = 16;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw InputError({{Place{path, 0}, why}});
-}
-
 /// Owns a file descriptor.
 struct Descriptor {
   int fd;
@@ -58,26 +54,6 @@ struct Descriptor {
     if (fd >= 0) ::close(fd);
   }
 };
-
-std::string read_text(const std::string& path) {
-  // O_NONBLOCK: opening a FIFO that nobody writes must not wait for ever.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  if (file.fd < 0) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-  struct stat status {};
-  if (::fstat(file.fd, &status) != 0) refuse(path, std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) refuse(path, "is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file");
-  std::string text;
-  std::vector<char> buffer(1u << 16);
-  for (;;) {
-    const ssize_t got = ::read(file.fd, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-    if (got == 0) return text;
-    text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (text.size() > kLargestFile) refuse(path, "is larger than 8 MiB");
-  }
-}
 
 /// True if the text is UTF-8 (RFC 3629, without checking for the rarer overlong forms).
 bool is_utf8(std::string_view text) {
@@ -189,12 +165,34 @@ toml::parse_result parse_or_refuse(std::string_view text, const std::string& nam
 
 }  // namespace
 
+std::string read_text(const std::string& path) {
+  // O_NONBLOCK: opening a FIFO that nobody writes must not wait for ever.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (file.fd < 0)
+    throw InputError({path, 0}, fmt::format("cannot be read: {}", std::strerror(errno)));
+  struct stat status {};
+  if (::fstat(file.fd, &status) != 0) throw InputError({path, 0}, std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw InputError({path, 0}, "is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) throw InputError({path, 0}, "is not a regular file");
+  std::string text;
+  std::vector<char> buffer(1u << 16);
+  for (;;) {
+    const ssize_t got = ::read(file.fd, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      throw InputError({path, 0}, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (got == 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (text.size() > kLargestFile) throw InputError({path, 0}, "is larger than 8 MiB");
+  }
+}
+
 Value read_toml(const std::string& path) {
   return parse_toml(read_text(path), path);
 }
 
 Value parse_toml(std::string_view text, const std::string& name) {
-  if (text.size() > kLargestFile) refuse(name, "is larger than 8 MiB");
+  if (text.size() > kLargestFile) throw InputError({name, 0}, "is larger than 8 MiB");
   check_encoding(text, name);
   if (const auto stumble = find_stumble(text, kMostKeyParts)) {
     throw InputError({{Place{name, stumble->line}, stumble->why}});

@@ -8,6 +8,11 @@
 
 namespace millstudy::io {
 
+/// The bytes of a regular file of at most 8 MiB.
+///
+/// @throws core::InputError if it is none or cannot be read
+std::string read_text(const std::string& path);
+
 /// The TOML 1.0 file as a tree; tables in the order of the file, every value with file and line.
 ///
 /// inf and nan are read as they are: whoever knows the range of a key refuses them. Dates and times

@@ -123,10 +123,10 @@ namespace {
 constexpr double kMostUnexplained = 0.2;
 
 dynamics::Machine listed_modes(const Case& point) {
-  constexpr double kTurn = 2.0 * core::kPi;
   dynamics::Machine machine;
   const auto mode_of = [](const auto& given) {
-    return dynamics::Mode{kTurn * given.frequency.value_or(0.0), given.damping_ratio.value_or(0.0)};
+    return dynamics::Mode{core::kTurn * given.frequency.value_or(0.0),
+                          given.damping_ratio.value_or(0.0)};
   };
   const auto add = [&](const auto& given, std::vector<dynamics::AxisMode>& axis) {
     for (const AxisModeSection& mode : given) {

@@ -18,7 +18,6 @@
 namespace millstudy::study {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
 constexpr double kUm = 1e3;             // in a mm
 constexpr int kHeights = 33;            // of the extremes over height
 constexpr int kSamplesPerTooth = 1024;  // of the profile: Rz to 0.2 %
@@ -102,7 +101,7 @@ Vibration simulated(const Case& point, const dynamics::Machine& machine,
       dynamics::simulate(machine, point.cutter, engaged, scaled_coefficients(point), speed,
                          settings, variation(point));
   return {found.stable, std::numeric_limits<double>::quiet_NaN(),
-          dynamics::PeriodicMotion(kTurn / speed, found.last_turn)};
+          dynamics::PeriodicMotion(core::kTurn / speed, found.last_turn)};
 }
 
 /// Largest less smallest displacement, x and y [mm].
@@ -123,7 +122,7 @@ void evaluate(const Case& point, std::span<double> row, sweep::Trace*) {
   check_feed(point);
   const force::Engagement engaged = engagement(point);
   const dynamics::Wall side = wall(point, engaged.arc());
-  const double z = height(point), speed = kTurn * point.cut.spindle_speed;
+  const double z = height(point), speed = core::kTurn * point.cut.spindle_speed;
   dynamics::Machine all = machine(point);
   dynamics::check(all);
   const Vibration vibration = point.finish.method == FinishMethod::periodic

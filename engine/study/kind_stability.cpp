@@ -18,7 +18,6 @@
 namespace millstudy::study {
 namespace {
 
-constexpr double kTurn = 2.0 * core::kPi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kIntervalsKept = 4;  // of stable depth
 
@@ -63,10 +62,10 @@ void fill(const Found& found, bool depth_is_axis, std::span<double> row) {
   row[c++] = found.radius;
   row[c++] = found.multiplier.real();
   row[c++] = found.multiplier.imag();
-  row[c++] = found.chatter_frequency / kTurn;
+  row[c++] = found.chatter_frequency / core::kTurn;
   if (depth_is_axis) return;
   row[c++] = found.limit;
-  row[c++] = found.frequency_at_limit / kTurn;
+  row[c++] = found.frequency_at_limit / core::kTurn;
   row[c++] = static_cast<double>(found.depths.size());
   for (std::size_t i = 0; i < std::min<std::size_t>(kIntervalsKept, found.depths.size()); ++i) {
     row[c++] = found.depths[i].from;
@@ -104,7 +103,7 @@ class StabilityCase {
         engagement_(engagement(point)),
         coefficients_(scaled_coefficients(point)),
         variation_(variation(point)),
-        speed_(kTurn * point.cut.spindle_speed) {}
+        speed_(core::kTurn * point.cut.spindle_speed) {}
 
   Found find() const {
     switch (point_.stability.method) {
