@@ -24,6 +24,7 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
   const std::int64_t blocks = (layout.points() + block_size - 1) / block_size;
   const std::int64_t tried = std::min(blocks, most_blocks);
   const std::int64_t step = spreading_step(tried);
+  constexpr double kMostSamples = 64e6 / 20.0;
   Estimate estimate;
   double samples = 0.0;
   std::int64_t skipped = 0;
@@ -41,6 +42,10 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
       samples += static_cast<double>(trace.time.size());
     }
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (samples > kMostSamples && i > 0) {
+      for (sweep::Trace& trace : block.traces) trace = {};
+    }
+    estimate.blocks.push_back(std::move(block));
   }
   const auto measured = static_cast<double>(estimate.measured_points);
   estimate.seconds_per_point = seconds / measured;

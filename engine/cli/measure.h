@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "study/study.h"
+#include "sweep/block.h"
 
 namespace millstudy::cli {
 
@@ -13,6 +15,7 @@ struct Estimate {
   double trace_samples_per_point = 0.0;
   double skipped_part = 0.0;
   std::int64_t measured_points = 0;
+  std::vector<sweep::Block> blocks;  ///< that were measured; without traces from 64 MB of them
 };
 
 /// Times blocks of one size spread evenly over the study, at most most_blocks of them, until the

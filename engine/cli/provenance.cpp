@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "cli/extension.h"
 #include "cli/version.h"
+#include "study/sweep_design.h"
 
 namespace millstudy::cli {
 namespace {
@@ -38,6 +40,29 @@ std::vector<sweep::Attribute> provenance(int threads) {
       {"host", host_name()},
       {"threads", std::int64_t{threads}},
   };
+}
+
+std::vector<sweep::Attribute> origin(const OpenStudy& open, const StudyOptions& options,
+                                     int threads) {
+  std::string overrides;
+  for (const std::string& text : options.overrides) overrides += text + '\n';
+  std::vector<sweep::Attribute> attributes = {
+      {"title", open.study.description.empty() ? open.study.name : open.study.description},
+      {"name", open.study.name},
+      {"kind", std::string(open.study.kind->name)},
+      {"schema_version", std::int64_t{1}},
+      {"design", std::string(study::name_of(open.study.space.design()))},
+      {"study", open.text},
+      {"overrides", overrides},
+      {"study_hash", open.hash},
+  };
+  for (sweep::Attribute& attribute : extension_attributes(open.study)) {
+    attributes.push_back(std::move(attribute));
+  }
+  for (sweep::Attribute& attribute : provenance(threads)) {
+    attributes.push_back(std::move(attribute));
+  }
+  return attributes;
 }
 
 }  // namespace millstudy::cli

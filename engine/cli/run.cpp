@@ -22,7 +22,6 @@
 #include "io/atomic_file.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
-#include "study/sweep_design.h"
 #include "sweep/shared_run.h"
 
 namespace millstudy::cli {
@@ -53,30 +52,6 @@ class FailureTally : public sweep::Sink {
   sweep::Sink& sink_;
   std::map<std::string, std::int64_t> counts_;
 };
-
-/// Where the result came from.
-std::vector<sweep::Attribute> origin(const OpenStudy& open, const StudyOptions& options,
-                                     int threads) {
-  std::string overrides;
-  for (const std::string& text : options.overrides) overrides += text + '\n';
-  std::vector<sweep::Attribute> attributes = {
-      {"title", open.study.description.empty() ? open.study.name : open.study.description},
-      {"name", open.study.name},
-      {"kind", std::string(open.study.kind->name)},
-      {"schema_version", std::int64_t{1}},
-      {"design", std::string(study::name_of(open.study.space.design()))},
-      {"study", open.text},
-      {"overrides", overrides},
-      {"study_hash", open.hash},
-  };
-  for (sweep::Attribute& attribute : extension_attributes(open.study)) {
-    attributes.push_back(std::move(attribute));
-  }
-  for (sweep::Attribute& attribute : provenance(threads)) {
-    attributes.push_back(std::move(attribute));
-  }
-  return attributes;
-}
 
 struct Outcome {
   std::string status;  ///< done, or already done

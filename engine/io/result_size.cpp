@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "io/result_size.h"
 
-#include "io/result_variables.h"
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/resource_error.h"
+#include "io/result_content.h"
 #include "io/row_major.h"
 
 namespace millstudy::io {
 namespace {
 
-double attribute_bytes(const sweep::Layout& layout) {
-  double bytes = 0.0;
-  for (const sweep::Attribute& attribute : layout.attributes) {
-    const auto* text = std::get_if<std::string>(&attribute.second);
-    bytes += 100.0 + (text ? static_cast<double>(text->size()) : 8.0);
+/// A file without a name, in memory.
+class MemoryFile {
+ public:
+  MemoryFile() : output_{::memfd_create("result", MFD_CLOEXEC)} {
+    if (output_.fd >= 0) return;
+    throw core::ResourceError(std::string("no file in memory: ") + std::strerror(errno));
   }
-  return bytes;
-}
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(output_.fd); }
 
-double coordinate_bytes(const sweep::Coordinate& coordinate) {
-  const auto* numbers = std::get_if<std::vector<double>>(&coordinate.values);
-  if (numbers) return 8.0 * static_cast<double>(numbers->size());
-  double bytes = 0.0;
-  for (const std::string& text : std::get<std::vector<std::string>>(coordinate.values)) {
-    bytes += 24.0 + static_cast<double>(text.size());
+  hdf5::Output& output() { return output_; }
+  double bytes() const {
+    struct stat status {};
+    return ::fstat(output_.fd, &status) == 0 ? static_cast<double>(status.st_size) : 0.0;
   }
-  return bytes;
-}
+
+ private:
+  hdf5::Output output_;
+};
 
 /// Points with the padding of chunks that reach beyond the end.
 double padded_points(const sweep::Layout& layout) {
@@ -37,26 +49,109 @@ double padded_points(const sweep::Layout& layout) {
   return points;
 }
 
+/// A last chunk that is mostly empty is compressed.
+double padded_samples(double samples) {
+  constexpr auto kChunk = static_cast<double>(kChunkElements);
+  const double rest = std::fmod(samples, kChunk);
+  return 2.0 * rest < kChunk ? samples : samples - rest + kChunk;
+}
+
+/// How many values a variable has in the file of some points and in that of all, and how many of
+/// the latter with the padding of chunks.
+struct Extent {
+  double written;
+  double all;
+  double padded;
+};
+
+/// Adds up what variables take in the file of some points, and would take in that of all.
+class Scaling {
+ public:
+  /// @param repetitive  gzip pays, as ChunkStream decides it
+  template <class T>
+  void add(const ChunkStream<T>& stream, const Extent& extent, bool repetitive) {
+    constexpr double kOfFill = 1.0 / 227.0;  // what gzip makes of equal bytes, measured
+    const auto bytes = static_cast<double>(H5Dget_storage_size(stream.dataset()));
+    stored_ += bytes;
+    if (extent.written == extent.all || bytes == 0.0) {
+      expected_ += bytes;
+    } else if (repetitive) {
+      constexpr auto kChunk = static_cast<double>(kChunkElements);
+      const double unused = std::min(kChunk, extent.padded) - std::fmod(extent.written, kChunk);
+      const double net = bytes - std::max(0.0, unused) * sizeof(T) * kOfFill;
+      expected_ += std::max(net, 0.0) * extent.all / extent.written;
+    } else {
+      expected_ += extent.padded * sizeof(T);
+    }
+  }
+
+  /// Of all points, beyond those that are in the file.
+  double growth() const { return expected_ - stored_; }
+
+ private:
+  double stored_ = 0.0;
+  double expected_ = 0.0;
+};
+
+/// Values of a column, or forces along x, of which the other parts of a trace are like.
+std::vector<double> some_values(const std::vector<sweep::Block>& blocks, std::size_t column) {
+  std::vector<double> values;
+  for (const sweep::Block& block : blocks) {
+    const double* const begin =
+        block.values.data() + column * static_cast<std::size_t>(block.count);
+    values.insert(values.end(), begin, begin + block.count);
+  }
+  return values;
+}
+
+std::vector<float> some_samples(const std::vector<sweep::Block>& blocks) {
+  std::vector<float> samples;
+  for (const sweep::Block& block : blocks) {
+    for (const sweep::Trace& trace : block.traces) {
+      samples.insert(samples.end(), trace.force_x.begin(), trace.force_x.end());
+    }
+  }
+  return samples;
+}
+
+template <class T>
+bool is_repetitive(const std::vector<T>& values) {
+  return io::is_repetitive(std::span<const T>(values));
+}
+
 }  // namespace
 
-double largest_result_bytes(const sweep::Layout& layout, double trace_samples) {
-  constexpr double kFile = 10e3;     // superblock, text heaps
-  constexpr double kStatus = 1 + 4;  // int8 and int32
-  constexpr double kTrace = 2 * 8;   // start and count
-  constexpr double kSample = 5 * 4;  // float32
-  // Header, attributes and, of a chunked variable, the index of chunks.
-  const double variable = layout.shape.empty() ? 1e3 : 4e3;
-  const auto columns = static_cast<double>(layout.columns.size());
-  double bytes = kFile + attribute_bytes(layout);
-  for (const sweep::Coordinate& coordinate : layout.coordinates) {
-    bytes += variable + coordinate_bytes(coordinate);
+double expected_result_bytes(const sweep::Layout& layout, std::vector<sweep::Block> measured,
+                             double trace_samples) {
+  std::sort(measured.begin(), measured.end(),
+            [](const sweep::Block& a, const sweep::Block& b) { return a.first < b.first; });
+  const hdf5::QuietErrors quiet;
+  MemoryFile file;
+  Scaling scaling;
+  {
+    ResultContent content(file.output(), layout);
+    Extent points = {0.0, static_cast<double>(layout.points()), padded_points(layout)};
+    for (const sweep::Block& block : measured) {
+      content.append(block);
+      points.written += static_cast<double>(block.count);
+    }
+    content.finish({});
+    const ResultVariables& variables = content.variables();
+    for (std::size_t c = 0; c < variables.columns.size(); ++c) {
+      scaling.add(variables.columns[c], points, is_repetitive(some_values(measured, c)));
+    }
+    scaling.add(variables.status, points, true);
+    scaling.add(variables.failure_code, points, true);
+    for (const TraceVariables& traces : variables.traces) {
+      scaling.add(traces.start, points, false);
+      scaling.add(traces.count, points, true);
+      const Extent samples = {static_cast<double>(traces.written), trace_samples,
+                              padded_samples(trace_samples)};
+      const bool repetitive = is_repetitive(some_samples(measured));
+      for (const ChunkStream<float>& part : traces.samples) scaling.add(part, samples, repetitive);
+    }
   }
-  bytes += variable * (columns + 2.0) + (8.0 * columns + kStatus) * padded_points(layout);
-  if (layout.traces) {
-    const double padding = static_cast<double>(kChunkElements);
-    bytes += 7.0 * variable + kTrace * padded_points(layout) + kSample * (trace_samples + padding);
-  }
-  return bytes;
+  return file.bytes() + scaling.growth();
 }
 
 }  // namespace millstudy::io

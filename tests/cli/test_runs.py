@@ -275,7 +275,7 @@ class Plan(ProgramTest):
         said = self.millstudy("plan", "study.toml").stdout
         self.assertRegex(said, r"cut\.radial_depth_mm +4 values: 3, 12, 13, 20 mm\n")
         for line in (r"points:  8", r"time:    about .+ on \d+ threads? \(8 points measured\)",
-                     r"memory:  about \d", r"file:    at most \d"):
+                     r"memory:  about \d", r"file:    about \d"):
             self.assertRegex(said, "(?m)^" + line)
         self.assertEqual(self.files(), before)
 
@@ -286,7 +286,7 @@ class Plan(ProgramTest):
         self.assertEqual(plan["dimensions"], ["radial_depth_mm", "feed_rate_mm_per_min"])
         self.assertEqual(plan["shape"], [4, 2])
 
-    def test_no_result_is_larger_than_planned(self):
+    def test_the_result_is_as_large_as_planned(self):
         axes = '[sweep.axes]\n"cut.axial_depth_mm" = { from = 0.1, to = 9.0, count = %d }\n' \
                '"cutter.helix_deg" = { from = 0.0, to = 50.0, count = %d }\n'
         for text in (SLOT, SLOT + axes % (2, 3), SLOT + axes % (300, 301),
@@ -295,8 +295,7 @@ class Plan(ProgramTest):
             planned = json.loads(self.millstudy("plan", "study.toml", "--json").stdout)["file_bytes"]
             self.millstudy("run", "study.toml", "-o", "R.h5", "--fresh")
             size = (self.folder / "R.h5").stat().st_size
-            self.assertLessEqual(size, planned)
-            self.assertLess(planned, 3.0 * size + 2e6 * ("traces" in text))
+            self.assertLess(abs(planned / size - 1.0), 0.1, f"{planned:.0f} of {size}")
 
     def test_slow_points_are_not_timed_by_the_thousand(self):
         self.write(SLOT.replace("angular_steps = 90",
