@@ -113,20 +113,18 @@ class Joined {
   sweep::Block read(std::int64_t first, std::int64_t count) {
     const sweep::Layout& layout = parts_[0].result.layout();
     sweep::Block block(first, count, layout.columns.size(), layout.traces);
+    bool empty = true;
     for (const Part& part : parts_) {
       const std::int64_t from = std::max(first, part.first);
       const std::int64_t to = std::min(first + count, part.end);
       if (from >= to) continue;
       sweep::Block own = part.result.read(from, to - from);
-      for (std::int64_t k = 0; k < own.count; ++k) {
-        const std::int64_t i = from - first + k;
-        if (own.status[k] == sweep::Status::not_run) continue;
-        if (block.status[i] != sweep::Status::not_run) {
-          twice_.add(first + i);
-          continue;
-        }
-        sweep::copy_point(own, k, block, i);
+      if (empty && own.count == count && !own.values.empty()) {
+        block = std::move(own);
+      } else {
+        add(own, block);
       }
+      empty = false;
     }
     for (std::int64_t i = 0; i < count; ++i) {
       if (block.status[i] == sweep::Status::not_run) missing_.add(first + i);
@@ -141,6 +139,18 @@ class Joined {
   const Counts& counts() const { return counts_; }
 
  private:
+  void add(sweep::Block& own, sweep::Block& block) {
+    for (std::int64_t k = 0; k < own.count; ++k) {
+      const std::int64_t i = own.first - block.first + k;
+      if (own.status[k] == sweep::Status::not_run) continue;
+      if (block.status[i] != sweep::Status::not_run) {
+        twice_.add(own.first + k);
+        continue;
+      }
+      sweep::copy_point(own, k, block, i);
+    }
+  }
+
   const std::vector<Part>& parts_;
   Ranges twice_, missing_;
   Counts counts_;

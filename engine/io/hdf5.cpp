@@ -46,7 +46,6 @@ void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64
   const Handle file_space(H5Dget_space(dataset), "open a dataspace");
   std::int64_t offset = 0;
   for (const Box& box : row_major_boxes(shape, begin, begin + count)) {
-    const std::int64_t elements = element_count(box.count);
     if (!shape.empty()) {
       const std::vector<hsize_t> start = sizes(box.start);
       const std::vector<hsize_t> lengths = sizes(box.count);
@@ -54,9 +53,10 @@ void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64
                                 lengths.data(), nullptr),
             "select elements");
     }
-    const Handle memory_space = space_of({elements});
+    // Of the same shape: between a line and a box the library goes element by element.
+    const Handle memory_space = space_of(box.count);
     transfer(memory_space.get(), file_space.get(), offset);
-    offset += elements;
+    offset += element_count(box.count);
   }
 }
 

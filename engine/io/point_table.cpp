@@ -39,21 +39,24 @@ std::string name_of(hid_t object) {
   return name[0] == '/' ? name.data() + 1 : name.data();
 }
 
-/// H5DSiterate_scales callback: keeps the name of the first scale.
-herr_t keep_name(hid_t /*dataset*/, unsigned /*dimension*/, hid_t scale, void* name) {
-  *static_cast<std::string*>(name) = name_of(scale);
+/// H5DSiterate_scales callback: keeps the address of the first scale.
+herr_t keep_address(hid_t /*dataset*/, unsigned /*dimension*/, hid_t scale, void* address) {
+  H5O_info_t info;
+  if (H5Oget_info2(scale, &info, H5O_INFO_BASIC) < 0) return -1;
+  *static_cast<haddr_t*>(address) = info.addr;
   return 1;
 }
 
-/// Name of the scale of each dimension; empty where there is none.
-std::vector<std::string> dimensions_of(hid_t dataset, std::size_t rank) {
-  std::vector<std::string> names(rank);
+/// Where in the file the scale of each dimension is, if there is one: to look for its name takes
+/// much longer.
+std::vector<haddr_t> scales_of(hid_t dataset, std::size_t rank) {
+  std::vector<haddr_t> scales(rank, HADDR_UNDEF);
   for (std::size_t d = 0; d < rank; ++d) {
     const auto dimension = static_cast<unsigned>(d);
     if (H5DSget_num_scales(dataset, dimension) < 1) continue;
-    H5DSiterate_scales(dataset, dimension, nullptr, keep_name, &names[d]);
+    H5DSiterate_scales(dataset, dimension, nullptr, keep_address, &scales[d]);
   }
-  return names;
+  return scales;
 }
 
 herr_t collect_name(hid_t /*group*/, const char* name, const H5L_info_t* /*info*/, void* names) {
@@ -125,7 +128,13 @@ PointTable::PointTable(const std::string& path) : path_(path) {
     throw core::InputError({path, 0}, "is no result of a study: it has no status");
   const Handle status = open(file_.get(), "status");
   shape_ = hdf5::shape_of(status.get());
-  dimensions_ = dimensions_of(status.get(), shape_.size());
+  scales_ = scales_of(status.get(), shape_.size());
+  for (const haddr_t scale : scales_) {
+    if (scale == HADDR_UNDEF)
+      throw core::InputError({path, 0}, "has a dimension without a coordinate");
+    const Handle object(H5Oopen_by_addr(file_.get(), scale), "open a dimension");
+    dimensions_.push_back(name_of(object.get()));
+  }
   for (const std::int64_t length : shape_) {
     if (length <= 0 || points_ > kMostPoints / length)
       throw core::InputError({path, 0}, "has an impossible shape");
@@ -139,8 +148,6 @@ void PointTable::add_coordinates() {
   std::int64_t stride = points_;
   for (std::size_t d = 0; d < shape_.size(); ++d) {
     stride /= shape_[d];
-    if (dimensions_[d].empty())
-      throw core::InputError({path_, 0}, "has a dimension without a coordinate");
     PointColumn column = make_column(open(file_.get(), dimensions_[d]), dimensions_[d]);
     const Shape shape = hdf5::shape_of(column.dataset.get());
     if (shape != Shape{shape_[d]})
@@ -172,7 +179,7 @@ void PointTable::add_variables() {
     const H5T_class_t type = class_of(dataset.get());
     if (type != H5T_FLOAT && type != H5T_INTEGER) continue;
     if (hdf5::shape_of(dataset.get()) != shape_ || H5DSis_scale(dataset.get()) > 0) continue;
-    if (dimensions_of(dataset.get(), shape_.size()) != dimensions_) continue;
+    if (scales_of(dataset.get(), shape_.size()) != scales_) continue;
     columns_.push_back(make_column(std::move(dataset), name));
   }
   columns_.push_back(make_column(open(file_.get(), "status"), "status"));

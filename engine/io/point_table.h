@@ -55,7 +55,8 @@ class PointTable {
   std::string path_;
   hdf5::Handle file_;
   Shape shape_;
-  std::vector<std::string> dimensions_;
+  std::vector<haddr_t> scales_;          // of the dimensions
+  std::vector<std::string> dimensions_;  // their names
   std::int64_t points_ = 1;
   std::vector<std::string> reasons_;
   std::vector<PointColumn> columns_;
