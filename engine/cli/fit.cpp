@@ -99,7 +99,8 @@ int interrupted() {
 }  // namespace
 
 int fit(const FitOptions& options) {
-  const core::Value root = io::read_toml(options.file);
+  const std::string text = io::read_text(options.file);
+  const core::Value root = io::parse_toml(text, options.file);
   const study::FitFile file = study::read_fit_file(root, io::read_toml);
   const std::string folder = fs::path(options.file).parent_path().string();
   const auto [output, coefficients] = fit_outputs(options, file, folder);
@@ -154,7 +155,6 @@ int fit(const FitOptions& options) {
   table.condition_number = report.condition_number;
   table.words = warnings;
 
-  const std::string text = io::read_text(options.file);
   report.attributes = {
       {"title", file.description.empty() ? file.name : file.description},
       {"name", file.name},

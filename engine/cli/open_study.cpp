@@ -114,7 +114,8 @@ core::Value read_named(const std::string& path) {
 }  // namespace
 
 OpenStudy open_study(const StudyOptions& options) {
-  core::Value root = io::read_toml(options.file);
+  std::string file_text = io::read_text(options.file);
+  core::Value root = io::parse_toml(file_text, options.file);
   std::vector<core::Value> changes;
   for (const std::string& text : options.overrides) {
     core::Value change = parse_override(text);
@@ -122,7 +123,7 @@ OpenStudy open_study(const StudyOptions& options) {
     changes.push_back(change);
     merge(root, std::move(change));
   }
-  OpenStudy open{study::resolve(root, read_named), io::read_text(options.file), ""};
+  OpenStudy open{study::resolve(root, read_named), std::move(file_text), ""};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     refuse_swept(open.study, changes[i], "", options.overrides[i]);
   }

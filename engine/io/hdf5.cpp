@@ -44,6 +44,9 @@ template <class Transfer>
 void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64_t count,
                const Transfer& transfer) {
   const Handle file_space(H5Dget_space(dataset), "open a dataspace");
+  if (H5Sget_simple_extent_ndims(file_space.get()) != static_cast<int>(shape.size())) {
+    throw Error("HDF5 cannot select elements: a variable has another number of dimensions");
+  }
   std::int64_t offset = 0;
   for (const Box& box : row_major_boxes(shape, begin, begin + count)) {
     if (!shape.empty()) {

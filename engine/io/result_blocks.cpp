@@ -36,6 +36,7 @@ Traces open_traces(const PointTable& table) {
                                                  "trace_force_y", "trace_force_z"};
   for (std::size_t k = 0; k < kNames.size(); ++k) traces.samples[k] = table.other(kNames[k]);
   traces.length = hdf5::shape_of(traces.samples[0].get());
+  if (traces.length.size() != 1) throw hdf5::Error("traces have no length");
   return traces;
 }
 

@@ -2,6 +2,7 @@
 #include "io/result_size.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -39,11 +40,10 @@ class MemoryFile {
 };
 
 /// Points with the padding of chunks that reach beyond the end.
-double padded_points(const sweep::Layout& layout) {
-  const Shape chunk = row_major_chunk(layout.shape, kChunkElements);
+double padded_points(const Shape& shape, const Shape& chunk) {
   double points = 1.0;
-  for (std::size_t d = 0; d < layout.shape.size(); ++d) {
-    const std::int64_t chunks = (layout.shape[d] + chunk[d] - 1) / chunk[d];
+  for (std::size_t d = 0; d < shape.size(); ++d) {
+    const std::int64_t chunks = (shape[d] + chunk[d] - 1) / chunk[d];
     points *= static_cast<double>(chunks * chunk[d]);
   }
   return points;
@@ -56,12 +56,13 @@ double padded_samples(double samples) {
   return 2.0 * rest < kChunk ? samples : samples - rest + kChunk;
 }
 
-/// How many values a variable has in the file of some points and in that of all, and how many of
-/// the latter with the padding of chunks.
+/// How many values a variable has in the file of some points and in that of all, how many of the
+/// latter with the padding of chunks, and in a chunk.
 struct Extent {
   double written;
   double all;
   double padded;
+  double chunk;
 };
 
 /// Adds up what variables take in the file of some points, and would take in that of all.
@@ -73,15 +74,15 @@ class Scaling {
     constexpr double kOfFill = 1.0 / 227.0;  // what gzip makes of equal bytes, measured
     const auto bytes = static_cast<double>(H5Dget_storage_size(stream.dataset()));
     stored_ += bytes;
-    if (extent.written == extent.all || bytes == 0.0) {
+    const double plain = extent.padded * sizeof(T);
+    if (extent.written == extent.all || (bytes == 0.0 && extent.written > 0.0)) {
       expected_ += bytes;
-    } else if (repetitive) {
-      constexpr auto kChunk = static_cast<double>(kChunkElements);
-      const double unused = std::min(kChunk, extent.padded) - std::fmod(extent.written, kChunk);
-      const double net = bytes - std::max(0.0, unused) * sizeof(T) * kOfFill;
-      expected_ += std::max(net, 0.0) * extent.all / extent.written;
+    } else if (repetitive && extent.written > 0.0) {
+      const double unused = extent.chunk - std::fmod(extent.written, extent.chunk);
+      const double net = std::max(0.0, bytes - unused * sizeof(T) * kOfFill);
+      expected_ += std::min(plain, net * extent.all / extent.written);
     } else {
-      expected_ += extent.padded * sizeof(T);
+      expected_ += plain;
     }
   }
 
@@ -93,7 +94,7 @@ class Scaling {
   double expected_ = 0.0;
 };
 
-/// Values of a column, or forces along x, of which the other parts of a trace are like.
+/// Values of a column.
 std::vector<double> some_values(const std::vector<sweep::Block>& blocks, std::size_t column) {
   std::vector<double> values;
   for (const sweep::Block& block : blocks) {
@@ -104,11 +105,13 @@ std::vector<double> some_values(const std::vector<sweep::Block>& blocks, std::si
   return values;
 }
 
-std::vector<float> some_samples(const std::vector<sweep::Block>& blocks) {
+/// Values of a part of the traces.
+std::vector<float> some_samples(const std::vector<sweep::Block>& blocks,
+                                std::vector<float> sweep::Trace::*part) {
   std::vector<float> samples;
   for (const sweep::Block& block : blocks) {
     for (const sweep::Trace& trace : block.traces) {
-      samples.insert(samples.end(), trace.force_x.begin(), trace.force_x.end());
+      samples.insert(samples.end(), (trace.*part).begin(), (trace.*part).end());
     }
   }
   return samples;
@@ -119,6 +122,40 @@ bool is_repetitive(const std::vector<T>& values) {
   return io::is_repetitive(std::span<const T>(values));
 }
 
+/// What all points take beyond those that are written here.
+double write(hdf5::Output& output, const sweep::Layout& layout,
+             const std::vector<sweep::Block>& measured, double trace_samples) {
+  Scaling scaling;
+  ResultContent content(output, layout);
+  const Shape chunk = row_major_chunk(layout.shape, kChunkElements);
+  Extent points = {0.0, static_cast<double>(layout.points()), padded_points(layout.shape, chunk),
+                   static_cast<double>(element_count(chunk))};
+  for (const sweep::Block& block : measured) {
+    content.append(block);
+    points.written += static_cast<double>(block.count);
+  }
+  content.finish({});
+  const ResultVariables& variables = content.variables();
+  for (std::size_t c = 0; c < variables.columns.size(); ++c) {
+    scaling.add(variables.columns[c], points, is_repetitive(some_values(measured, c)));
+  }
+  scaling.add(variables.status, points, true);
+  scaling.add(variables.failure_code, points, true);
+  for (const TraceVariables& traces : variables.traces) {
+    scaling.add(traces.start, points, false);
+    scaling.add(traces.count, points, true);
+    const Extent samples = {static_cast<double>(traces.written), trace_samples,
+                            padded_samples(trace_samples), static_cast<double>(kChunkElements)};
+    using sweep::Trace;
+    constexpr std::array kParts = {&Trace::time, &Trace::angle, &Trace::force_x, &Trace::force_y,
+                                   &Trace::force_z};
+    for (std::size_t k = 0; k < kParts.size(); ++k) {
+      scaling.add(traces.samples[k], samples, is_repetitive(some_samples(measured, kParts[k])));
+    }
+  }
+  return scaling.growth();
+}
+
 }  // namespace
 
 double expected_result_bytes(const sweep::Layout& layout, std::vector<sweep::Block> measured,
@@ -127,31 +164,17 @@ double expected_result_bytes(const sweep::Layout& layout, std::vector<sweep::Blo
             [](const sweep::Block& a, const sweep::Block& b) { return a.first < b.first; });
   const hdf5::QuietErrors quiet;
   MemoryFile file;
-  Scaling scaling;
-  {
-    ResultContent content(file.output(), layout);
-    Extent points = {0.0, static_cast<double>(layout.points()), padded_points(layout)};
-    for (const sweep::Block& block : measured) {
-      content.append(block);
-      points.written += static_cast<double>(block.count);
-    }
-    content.finish({});
-    const ResultVariables& variables = content.variables();
-    for (std::size_t c = 0; c < variables.columns.size(); ++c) {
-      scaling.add(variables.columns[c], points, is_repetitive(some_values(measured, c)));
-    }
-    scaling.add(variables.status, points, true);
-    scaling.add(variables.failure_code, points, true);
-    for (const TraceVariables& traces : variables.traces) {
-      scaling.add(traces.start, points, false);
-      scaling.add(traces.count, points, true);
-      const Extent samples = {static_cast<double>(traces.written), trace_samples,
-                              padded_samples(trace_samples)};
-      const bool repetitive = is_repetitive(some_samples(measured));
-      for (const ChunkStream<float>& part : traces.samples) scaling.add(part, samples, repetitive);
-    }
+  const auto fail = [](const char* why) -> void {
+    throw core::ResourceError(std::string("a file in memory cannot be written: ") + why);
+  };
+  double growth = 0.0;
+  try {
+    growth = write(file.output(), layout, measured, trace_samples);
+  } catch (const hdf5::Error& error) {
+    fail(error.what());
   }
-  return file.bytes() + scaling.growth();
+  if (file.output().error != 0) fail(std::strerror(file.output().error));
+  return file.bytes() + growth;
 }
 
 }  // namespace millstudy::io

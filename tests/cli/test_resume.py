@@ -2,12 +2,14 @@
 """A run that goes on: after an interruption, after failures, in parts."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
 import unittest
 
 import h5py
+import numpy
 
 from program import PROGRAM, SLOT, SLOW, ProgramTest
 
@@ -258,6 +260,17 @@ class Shards(ResumeTest):
             self.millstudy("run", "study.toml", "--shard", f"{k}/2")
         self.millstudy("merge", "m.h5", "slot.shard-2-of-2.h5", "slot.shard-1-of-2.h5")
         self.same("whole.h5", "m.h5")
+
+    def test_damaged_traces_are_refused(self):
+        self.write(SLOT + "[output]\ntraces = true\n")
+        self.millstudy("run", "study.toml", "-o", "good.h5")
+        for name, values in (("trace_time", numpy.float32(1.0)), ("trace_force_y", numpy.zeros((2, 3, 4), "f4")),
+                             ("trace_start", numpy.zeros((1, 1, 1), "i8")), ("trace_count", numpy.int64([[1 << 40]]))):
+            shutil.copy(self.folder / "good.h5", self.folder / "bad.h5")
+            with h5py.File(self.folder / "bad.h5", "r+") as file:
+                del file[name]
+                file[name] = values
+            self.assertRegex(self.refused("merge", "m.h5", "bad.h5"), "^bad.h5: (is no readable|cannot be read|has a damaged)")
 
     def test_gaps_overlaps_and_strangers_are_refused(self):
         self.write(RADIAL)

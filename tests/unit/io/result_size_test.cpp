@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/result_size.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 
@@ -13,10 +14,15 @@ namespace {
 using sample::Design;
 
 struct Case {
+  const char* name;
   std::vector<std::int64_t> shape;
   Design design;
   bool traces;
 };
+
+std::string name_of(const testing::TestParamInfo<Case>& one) {
+  return one.param.name;
+}
 
 class ResultSize : public testing::TestWithParam<Case> {
  protected:
@@ -26,7 +32,10 @@ class ResultSize : public testing::TestWithParam<Case> {
 };
 
 double written_bytes(const sweep::Layout& layout) {
-  const std::string path = testing::TempDir() + "/result_size.h5";
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  std::string path = std::string("result_size_") + test.name() + ".h5";
+  std::replace(path.begin(), path.end(), '/', '_');
+  path = testing::TempDir() + "/" + path;
   const auto writer = make_result_writer(path, layout);
   writer->write(sample::block(layout, 0, layout.points()));
   writer->finish({});
@@ -70,11 +79,12 @@ TEST_P(ResultSize, IsCloseOfSomePoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, ResultSize,
-                         testing::Values(Case{{40}, Design::grid, false},
-                                         Case{{3, 7, 11}, Design::grid, true},
-                                         Case{{3, 200, 300}, Design::grid, true},
-                                         Case{{2, 70'000}, Design::grid, false},
-                                         Case{{150'000}, Design::zip, true}));
+                         testing::Values(Case{"line", {40}, Design::grid, false},
+                                         Case{"small_traces", {3, 7, 11}, Design::grid, true},
+                                         Case{"traces", {3, 200, 300}, Design::grid, true},
+                                         Case{"grid", {2, 70'000}, Design::grid, false},
+                                         Case{"zip", {150'000}, Design::zip, true}),
+                         name_of);
 
 }  // namespace
 }  // namespace millstudy::io
