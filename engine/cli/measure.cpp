@@ -24,7 +24,7 @@ Estimate measure_blocks(const sweep::EvaluateBlock& evaluate, const sweep::Layou
   const std::int64_t blocks = (layout.points() + block_size - 1) / block_size;
   const std::int64_t tried = std::min(blocks, most_blocks);
   const std::int64_t step = spreading_step(tried);
-  constexpr double kMostSamples = 64e6 / 20.0;
+  constexpr double kMostSamples = 64e6 / 20.0;  // 64 MB, of five floats each
   Estimate estimate;
   double samples = 0.0;
   std::int64_t skipped = 0;

@@ -119,6 +119,7 @@ class Joined {
       const std::int64_t to = std::min(first + count, part.end);
       if (from >= to) continue;
       sweep::Block own = part.result.read(from, to - from);
+      // Most pieces are of one part.
       if (empty && own.count == count && !own.values.empty()) {
         block = std::move(own);
       } else {
@@ -139,6 +140,7 @@ class Joined {
   const Counts& counts() const { return counts_; }
 
  private:
+  /// Points that were run, and that the block does not have yet.
   void add(sweep::Block& own, sweep::Block& block) {
     for (std::int64_t k = 0; k < own.count; ++k) {
       const std::int64_t i = own.first - block.first + k;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/measure.h"
@@ -42,9 +43,9 @@ int plan(const StudyOptions& options) {
   const int threads = options.threads > 0 ? options.threads : core::available_threads();
   sweep::Layout layout = study::layout(open.study);
   layout.attributes = origin(open, options, threads);
-  const Estimate estimate = measure(open.study, layout);
+  Estimate estimate = measure(open.study, layout);
   const double samples = estimate.trace_samples_per_point * static_cast<double>(layout.points());
-  const double bytes = io::expected_result_bytes(layout, estimate.blocks, samples);
+  const double bytes = io::expected_result_bytes(layout, std::move(estimate.blocks), samples);
   const double seconds =
       kStart + kWritingByte * bytes +
       estimate.seconds_per_point * static_cast<double>(layout.points()) / threads;

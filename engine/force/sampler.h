@@ -56,8 +56,7 @@ class ForceSampler {
   /// @param first  may run on over revolutions without losing digits; negative is allowed
   /// @param count  >= 0
   /// @param out    overwritten from 0; its arrays grow to at most count + 8 but never shrink, so
-  /// that one
-  ///               buffer serves many calls; what is beyond count is of no use
+  ///               that one buffer serves many calls; what is beyond count is of no use
   void sample(const Coefficients& coefficients, const Feed& feed, std::int64_t first,
               std::int64_t count, ForceSamples& out) const;
 

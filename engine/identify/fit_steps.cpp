@@ -6,7 +6,6 @@
 #include <limits>
 #include <tbb/parallel_for.h>
 
-#include "core/units.h"
 #include "cutter/flutes.h"
 #include "identify/fit_start.h"
 #include "identify/low_pass.h"

@@ -122,9 +122,9 @@ bool is_repetitive(const std::vector<T>& values) {
   return io::is_repetitive(std::span<const T>(values));
 }
 
-/// What all points take beyond those that are written here.
-double write(hdf5::Output& output, const sweep::Layout& layout,
-             const std::vector<sweep::Block>& measured, double trace_samples) {
+/// Writes what was measured; returns what the file of all points takes beyond it.
+double write_measured(hdf5::Output& output, const sweep::Layout& layout,
+                      const std::vector<sweep::Block>& measured, double trace_samples) {
   Scaling scaling;
   ResultContent content(output, layout);
   const Shape chunk = row_major_chunk(layout.shape, kChunkElements);
@@ -169,7 +169,7 @@ double expected_result_bytes(const sweep::Layout& layout, std::vector<sweep::Blo
   };
   double growth = 0.0;
   try {
-    growth = write(file.output(), layout, measured, trace_samples);
+    growth = write_measured(file.output(), layout, measured, trace_samples);
   } catch (const hdf5::Error& error) {
     fail(error.what());
   }
