@@ -53,7 +53,7 @@ std::vector<identify::Record> read_records(const study::FitFile& fit, const std:
     try {
       identify::PreparedTrace prepared = read_trace(record.source, folder);
       for (const std::string& warning : prepared.warnings) told[warning].push_back(record.name);
-      const double speed = 2.0 * core::kPi * record.cut.cut.spindle_speed;
+      const double speed = core::kTurn * record.cut.cut.spindle_speed;
       identify::Trace& trace = prepared.trace;
       if (record.source.offset_from_air) identify::remove_air_offset(trace, speed);
       if (record.source.cutting_only) {

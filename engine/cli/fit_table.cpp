@@ -215,7 +215,7 @@ std::string coefficients_toml(const FitTable& table, const std::string& result) 
   for (std::size_t r = 0; r < table.records.size(); ++r) {
     const identify::Record& record = table.records[r];
     const double feed =
-        record.feed_rate * 2.0 * core::kPi / (record.spindle_speed * table.file.cutter.flutes);
+        record.feed_rate * core::kTurn / (record.spindle_speed * table.file.cutter.flutes);
     low_feed = std::min(low_feed, feed);
     high_feed = std::max(high_feed, feed);
     low_depth = std::min(low_depth, record.engagement.axial_depth);

@@ -54,7 +54,7 @@ void check_flutes(const Cutter& cutter, Checker& checker) {
   checker.holds(cutter.pitch_angles.empty() || cutter.pitch_angles.size() == count,
                 "pitch_angles must have one angle for each flute");
   const double sum = std::accumulate(cutter.pitch_angles.begin(), cutter.pitch_angles.end(), 0.0);
-  checker.holds(cutter.pitch_angles.empty() || std::abs(sum - 2.0 * core::kPi) < 1e-9,
+  checker.holds(cutter.pitch_angles.empty() || std::abs(sum - core::kTurn) < 1e-9,
                 "pitch_angles must sum to 360 deg, not " + std::to_string(core::deg_from_rad(sum)));
   checker.holds(std::all_of(cutter.pitch_angles.begin(), cutter.pitch_angles.end(),
                             [](double pitch) { return pitch > 0.0; }),
@@ -119,7 +119,7 @@ double lag_rate(const Cutter& cutter) {
 }
 
 double pitch_angle(const Cutter& cutter) {
-  return 2.0 * core::kPi / cutter.flutes;
+  return core::kTurn / cutter.flutes;
 }
 
 }  // namespace millstudy::cutter

@@ -251,8 +251,8 @@ Eigen::MatrixXcd CollocationMap::spectrum(const Eigen::VectorXcd& vector,
     for (int i = 0; i < nodes_; ++i, at += moving_) {
       const double t = element.start + gauss.nodes[i] * element.length;
       const double weight = gauss.weights[i] * element.length / period_;
-      const std::complex<double> turn = std::polar(1.0, -2.0 * core::kPi * t / period_);
-      const double start = 2.0 * core::kPi * harmonics * t / period_;
+      const std::complex<double> turn = std::polar(1.0, -core::kTurn * t / period_);
+      const double start = core::kTurn * harmonics * t / period_;
       std::complex<double> factor = weight * std::exp(-exponent * t) * std::polar(1.0, start);
       for (int k = 0; k <= 2 * harmonics; ++k, factor *= turn) {
         for (int axis = 0; axis < moving_; ++axis) {

@@ -46,8 +46,7 @@ void set_frequencies(Floquet& result, const Spectrum& spectrum_of_motion, double
   const double own = std::arg(result.multiplier) / period;
   std::vector<std::pair<double, double>> all;  // amplitude, frequency
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double frequency =
-        std::abs(own + 2.0 * core::kPi * static_cast<double>(k - middle) / period);
+    const double frequency = std::abs(own + core::kTurn * static_cast<double>(k - middle) / period);
     const double amplitude = spectrum.col(k).cwiseAbs().maxCoeff();
     // A real motion has each frequency twice.
     const auto same = std::find_if(all.begin(), all.end(), [&](const auto& other) {
@@ -73,10 +72,10 @@ Eigen::MatrixXcd spectrum_of(const Eigen::MatrixXcd& motion, std::complex<double
   const auto samples = static_cast<double>(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / samples;
-    const std::complex<double> turn = std::polar(1.0, -2.0 * core::kPi * share);
+    const std::complex<double> turn = std::polar(1.0, -core::kTurn * share);
     std::complex<double> factor =
         std::exp(-std::log(multiplier) * share) *
-        std::polar(1.0 / samples, 2.0 * core::kPi * static_cast<double>(harmonics) * share);
+        std::polar(1.0 / samples, core::kTurn * static_cast<double>(harmonics) * share);
     for (Eigen::Index k = 0; k <= 2 * harmonics; ++k, factor *= turn) {
       all.col(k) += factor * motion.col(i);
     }

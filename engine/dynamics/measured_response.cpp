@@ -16,7 +16,7 @@ constexpr std::size_t kMostFaults = 20;
 constexpr double kSoftest = 1.0, kStiffest = 1e-10;
 
 double hertz(double omega) {
-  return omega / (2.0 * core::kPi);
+  return omega / core::kTurn;
 }
 
 /// Frequencies in order, without gaps.

@@ -44,11 +44,11 @@ RegenerativeCut RegenerativeCut::process_damping(double coefficient) const {
 }
 
 double RegenerativeCut::period_angle() const {
-  return edges_->equal_flutes() ? 2.0 * core::kPi / edges_->cutter().flutes : 2.0 * core::kPi;
+  return edges_->equal_flutes() ? core::kTurn / edges_->cutter().flutes : core::kTurn;
 }
 
 double RegenerativeCut::pitch(int flute, double lag) const {
-  return edges_->pitch_ratio(flute, lag) * 2.0 * core::kPi / edges_->cutter().flutes;
+  return edges_->pitch_ratio(flute, lag) * core::kTurn / edges_->cutter().flutes;
 }
 
 RegenerativeCut::Weights RegenerativeCut::weights(int flute, const force::EdgeNode& node) const {
@@ -99,11 +99,11 @@ Eigen::Matrix2d RegenerativeCut::swept_nodes(int flute, const force::EdgePiece& 
   std::vector<double> ends = {z1};
   const double lag1 = envelope.lag(z1), lag2 = envelope.lag(z2);
   for (const double limit : {swept_.entry(), swept_.entry() + swept_.width()}) {
-    const double first = (tip_angle - limit) / (2.0 * core::kPi);
-    const double a = first - tangent * lag1 / (2.0 * core::kPi);
-    const double b = first - tangent * lag2 / (2.0 * core::kPi);
+    const double first = (tip_angle - limit) / core::kTurn;
+    const double a = first - tangent * lag1 / core::kTurn;
+    const double b = first - tangent * lag2 / core::kTurn;
     for (double turn = std::ceil(std::min(a, b)); turn <= std::max(a, b); turn += 1.0) {
-      const double lag = 2.0 * core::kPi * (first - turn) / tangent;
+      const double lag = core::kTurn * (first - turn) / tangent;
       if (lag > lag1 && lag < lag2) ends.push_back(std::clamp(envelope.height_at_lag(lag), z1, z2));
     }
   }
@@ -171,9 +171,9 @@ Eigen::Matrix2d RegenerativeCut::mean_stiffness() const {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   const double depth = edges_->axial_depth();
   for (int j = 0; j < edges_->cutter().flutes; ++j) {
-    sum += swept(j, 2.0 * core::kPi, 0.0, depth) - swept(j, 0.0, 0.0, depth);
+    sum += swept(j, core::kTurn, 0.0, depth) - swept(j, 0.0, 0.0, depth);
   }
-  return sum / (2.0 * core::kPi);
+  return sum / core::kTurn;
 }
 
 }  // namespace millstudy::dynamics

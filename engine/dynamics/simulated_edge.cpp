@@ -37,7 +37,7 @@ SimulatedEdge::SimulatedEdge(const force::CuttingEdges& edges, int slices, int t
   const auto add = [&](int j, const force::EdgeNode& node) {
     const auto position = [&](int m) {  // of flute j + m, turns included
       const cutter::Flute& flute = edges.flutes()[(j + m) % flutes];
-      return flute.position - flute.helix_tangent * node.lag + 2.0 * core::kPi * ((j + m) / flutes);
+      return flute.position - flute.helix_tangent * node.lag + core::kTurn * ((j + m) / flutes);
     };
     const double own = position(0);
     Disc disc{own, node.sin_kappa, node.cos_kappa, node.width, node.length, edges.factors(j, node),

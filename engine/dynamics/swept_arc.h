@@ -32,7 +32,7 @@ class SweptArc {
         cos_(std::cos(2.0 * entry_)),
         sin_(std::sin(2.0 * entry_)),
         arc_once_(once_within(width_)),
-        turn_twice_(twice_within(width_) + (2.0 * core::kPi - width_) * arc_once_) {}
+        turn_twice_(twice_within(width_) + (core::kTurn - width_) * arc_once_) {}
 
   Eigen::Vector3d once(double phi) const {
     const auto [turns, rest] = split(phi);
@@ -90,8 +90,8 @@ class SweptArc {
   };
   Split split(double phi) const {
     const double past = phi - entry_;
-    const double turns = std::floor(past / (2.0 * core::kPi));
-    return {turns, past - turns * 2.0 * core::kPi};
+    const double turns = std::floor(past / core::kTurn);
+    return {turns, past - turns * core::kTurn};
   }
   Eigen::Vector3d once_within(double r) const {
     // 2 entry + 2 r by the addition theorems: one sine and one cosine.

@@ -85,7 +85,7 @@ ZerothOrder zeroth_order_gain(const FrequencyDomain& machine, const Eigen::Matri
   const auto values = [&](double omega) {
     return loop_values(machine, mean_stiffness, mean_damping, delay, omega);
   };
-  const double longest = 2.0 * core::kPi / delay / 32.0;
+  const double longest = core::kTurn / delay / 32.0;
   double largest = 0.0, at = 0.0;
   double low = machine.omega.front();
   std::array<Complex, 2> at_low = values(low);

@@ -22,9 +22,9 @@ void ChipLaw::find(int flute, double z, double lag, std::span<Reach> out) const 
       out[m - 1] = {static_cast<double>(count), 0.0};
       continue;
     }
-    const double turn = flute + m >= count ? 2.0 * core::kPi : 0.0;
+    const double turn = flute + m >= count ? core::kTurn : 0.0;
     const double pitch = position(other) + turn - own;
-    out[m - 1] = {pitch * count / (2.0 * core::kPi),
+    out[m - 1] = {pitch * count / core::kTurn,
                   radius - cutter::runout_at(runout, position(other), z)};
   }
 }

@@ -57,10 +57,10 @@ void CuttingEdges::add_pieces(const cutter::Segment& segment, double bottom, dou
 double CuttingEdges::pitch_ratio(int flute, double lag) const {
   const auto count = static_cast<int>(flutes_.size());
   const int next = (flute + 1) % count;
-  const double turn = next <= flute ? 2.0 * core::kPi : 0.0;
+  const double turn = next <= flute ? core::kTurn : 0.0;
   const double pitch = flutes_[next].position + turn - flutes_[flute].position -
                        (flutes_[next].helix_tangent - flutes_[flute].helix_tangent) * lag;
-  return pitch * count / (2.0 * core::kPi);
+  return pitch * count / core::kTurn;
 }
 
 double CuttingEdges::inclination(int flute, const EdgeNode& node) const {

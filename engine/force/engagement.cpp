@@ -75,7 +75,7 @@ void check(const cutter::Cutter& cutter, const Engagement& engagement) {
   for (std::size_t j = 0; j < flutes.size(); ++j) {
     const std::size_t next = (j + 1) % flutes.size();
     const double pitch =
-        flutes[next].position - flutes[j].position + (next <= j ? 2.0 * core::kPi : 0.0);
+        flutes[next].position - flutes[j].position + (next <= j ? core::kTurn : 0.0);
     const double closing = (flutes[next].helix_tangent - flutes[j].helix_tangent) * lag;
     if (!(closing < pitch)) {
       throw core::InputError("flutes " + std::to_string(j + 1) + " and " +
@@ -92,7 +92,7 @@ double largest_axial_depth(const cutter::Cutter& cutter) {
   for (const double helix : cutter.helix_angles) {
     steepest = std::max(steepest, std::abs(std::tan(helix)));
   }
-  const double turns = kMostTurns * 2.0 * core::kPi / steepest;
+  const double turns = kMostTurns * core::kTurn / steepest;
   return std::min(envelope.length(),
                   std::isfinite(turns) ? envelope.height_at_lag(turns) : envelope.length());
 }

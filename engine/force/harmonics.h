@@ -171,7 +171,7 @@ struct HarmonicAngles {
  private:
   HarmonicAngles() {
     for (int i = 0; i < kHarmonics; ++i) {
-      const double angle = 2.0 * core::kPi * i / kHarmonics;
+      const double angle = core::kTurn * i / kHarmonics;
       cosine[i] = std::cos(angle);
       sine[i] = std::sin(angle);
       weight[0][i] = 1.0 / kHarmonics;

@@ -24,7 +24,7 @@ ForceBasis revolution_mean(const cutter::Cutter& cutter, const Engagement& engag
         for (std::size_t i = 0; i < angles.nodes.size(); ++i) {
           const double phi = middle + half * angles.nodes[i];
           EdgeNode part = node;
-          const double weight = half * angles.weights[i] / (2.0 * core::kPi);
+          const double weight = half * angles.weights[i] / core::kTurn;
           part.width *= weight;
           part.length *= weight;
           add_node(mean, edges, Rows::forces, flute, part, std::sin(phi), std::cos(phi));

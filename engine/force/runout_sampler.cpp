@@ -312,7 +312,7 @@ class RunoutEdge::Sweep {
 
 void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,
                         const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const {
-  const Angle turn(std::remainder(feed.direction, 2.0 * core::kPi) +
+  const Angle turn(std::remainder(feed.direction, core::kTurn) +
                    (rows_ == Rows::moments ? 0.5 * core::kPi : 0.0));
   const RunoutStretch stretch(series_, k, turn.cosine, turn.sine);
   const double own_feed = feed.per_tooth * static_cast<double>(edges.flutes().size());

@@ -326,7 +326,7 @@ void ForceSampler::sample_prepared(int flute, const Coefficients& coefficients, 
   if (out.x.size() < room) out.resize(room);
   const std::array<double*, kRows> rows = {out.x.data(), out.y.data(), out.z.data(),
                                            out.torque.data()};
-  const Angle direction(std::remainder(feed.direction, 2.0 * core::kPi));
+  const Angle direction(std::remainder(feed.direction, core::kTurn));
   const std::int64_t begin = ((first % period) + period) % period;
   const std::int64_t fresh = std::min(count, period);
   // The samples of one period are begin .. period - 1 and then 0 .. begin - 1.
@@ -349,7 +349,7 @@ void ForceSampler::sample_nonlinear(int flute, const Coefficients& coefficients,
   const Geometry& g = *geometry_;
   const std::int64_t steps = g.angular_steps;
   if (out.x.size() < static_cast<std::size_t>(count) + kLanes) out.resize(count + kLanes);
-  const double direction = std::remainder(feed.direction, 2.0 * core::kPi);
+  const double direction = std::remainder(feed.direction, core::kTurn);
   const double c = std::cos(direction), s = std::sin(direction);
   const int begin = flute == kAllFlutes ? 0 : flute;
   const int end = flute == kAllFlutes ? g.edges->cutter().flutes : flute + 1;
@@ -358,7 +358,7 @@ void ForceSampler::sample_nonlinear(int flute, const Coefficients& coefficients,
     if (i % 16 == 0) core::keep_watch();
     const std::int64_t n = (((first + i) % steps) + steps) % steps;
     const double phi =
-        2.0 * core::kPi * static_cast<double>(n) / static_cast<double>(steps) + direction;
+        core::kTurn * static_cast<double>(n) / static_cast<double>(steps) + direction;
     std::array<double, kRows> sum{};
     for (int j = begin; j < end; ++j) {
       const std::array<double, kRows> force = g.nonlinear.of_flute(

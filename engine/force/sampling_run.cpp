@@ -14,12 +14,12 @@ namespace millstudy::force {
 AngleTables::AngleTables(int angular_steps, int tooth_count)
     : teeth(tooth_count),
       period(angular_steps / std::gcd(angular_steps, tooth_count)),
-      step(2.0 * core::kPi / angular_steps),
-      steps_per_rad(angular_steps / (2.0 * core::kPi)) {
+      step(core::kTurn / angular_steps),
+      steps_per_rad(angular_steps / core::kTurn) {
   const int padded = period + kLanes;
   for (std::vector<double>* table : {&cos1, &sin1, &cos2, &sin2}) table->reserve(padded);
   for (int n = 0; n < padded; ++n) {
-    const double angle = 2.0 * core::kPi * n / angular_steps;
+    const double angle = core::kTurn * n / angular_steps;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     cos1.push_back(c);
@@ -28,8 +28,8 @@ AngleTables::AngleTables(int angular_steps, int tooth_count)
     sin2.push_back(2.0 * s * c);
   }
   for (int q = 0; q < teeth; ++q) {
-    cos_pitch.push_back(std::cos(2.0 * core::kPi * q / teeth));
-    sin_pitch.push_back(std::sin(2.0 * core::kPi * q / teeth));
+    cos_pitch.push_back(std::cos(core::kTurn * q / teeth));
+    sin_pitch.push_back(std::sin(core::kTurn * q / teeth));
   }
 }
 
@@ -46,7 +46,7 @@ Pass SamplingRun::pass(std::int64_t q) const {
   const std::size_t at = left < 0 ? left + tables_.teeth : left;
   const double c = tables_.cos_pitch[at];
   const double s = tables_.sin_pitch[at];
-  return {zero_ + 2.0 * core::kPi * static_cast<double>(q) / tables_.teeth,
+  return {zero_ + core::kTurn * static_cast<double>(q) / tables_.teeth,
           zero_cosine_ * c - zero_sine_ * s, zero_sine_ * c + zero_cosine_ * s};
 }
 

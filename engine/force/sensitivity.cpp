@@ -50,11 +50,11 @@ struct ForceSensitivity::Tooth {
     const auto count = static_cast<int>(flutes.size());
     const cutter::Flute& other = flutes[(flute + m) % count];
     other_tangent = other.helix_tangent;
-    other_position = other.position + (flute + m >= count ? 2.0 * core::kPi : 0.0);
+    other_position = other.position + (flute + m >= count ? core::kTurn : 0.0);
   }
 
   ChipAt chip(double lag, double sin_phi, double cos_phi) const {
-    const double per_turn = static_cast<double>(edges.flutes().size()) / (2.0 * core::kPi);
+    const double per_turn = static_cast<double>(edges.flutes().size()) / core::kTurn;
     const double own = position - tangent * lag;
     const double before = other_position - other_tangent * lag;
     const double ratio = per_turn * (before - own);
@@ -324,8 +324,8 @@ void ForceSensitivity::find_lines(const Tooth& tooth) {
   for (int m = 1; m <= law_.reaches(); ++m) {
     Line& line = lines_[m - 1];
     const int other = (tooth.flute + m) % count;
-    const double turn = tooth.flute + m >= count ? 2.0 * core::kPi : 0.0;
-    line.ratio = (flutes[other].position + turn - own) * count / (2.0 * core::kPi);
+    const double turn = tooth.flute + m >= count ? core::kTurn : 0.0;
+    line.ratio = (flutes[other].position + turn - own) * count / core::kTurn;
     line.cosines = tips_[tooth.flute][0] - tips_[other][0];
     line.sines = tips_[tooth.flute][1] - tips_[other][1];
     line.a = line.ratio * tooth.feed.per_tooth * tooth.sin_tip + tooth.offset[0] * line.cosines +

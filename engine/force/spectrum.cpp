@@ -16,8 +16,8 @@ Spectrum::Spectrum(int harmonics, int flutes, int angular_steps)
                            " must be >= 1 and, times the flutes, at most half the angular steps");
   }
   for (int s = 0; s < steps_; ++s) {
-    cosine_.push_back(std::cos(2.0 * core::kPi * s / steps_));
-    sine_.push_back(std::sin(2.0 * core::kPi * s / steps_));
+    cosine_.push_back(std::cos(core::kTurn * s / steps_));
+    sine_.push_back(std::sin(core::kTurn * s / steps_));
   }
   for (int row = 0; row < kRows; ++row) {
     real_[row].assign(harmonics, 0.0);

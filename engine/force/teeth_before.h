@@ -18,12 +18,12 @@ class TeethBefore {
   TeethBefore(const CuttingEdges& edges, int flute, const Feed& feed)
       : offset_(edges.cutter().runout.offset),
         seen_(edges.flutes()[flute].position - edges.cutter().runout.angle),
-        zero_(std::remainder(feed.direction, 2.0 * core::kPi) + edges.cutter().runout.angle),
+        zero_(std::remainder(feed.direction, core::kTurn) + edges.cutter().runout.angle),
         count_(static_cast<int>(edges.flutes().size())) {
     std::array<Reach, RunoutEdge::kMostFlutes> reaches;
     ChipLaw(edges).find(flute, 0.0, 0.0, std::span(reaches).first(count_));
     for (int m = 0; m < count_; ++m) {
-      const double ahead = reaches[m].ratio * 2.0 * core::kPi / count_;
+      const double ahead = reaches[m].ratio * core::kTurn / count_;
       before_[m] = {feed.per_tooth * reaches[m].ratio, 1.0 - std::cos(ahead), std::sin(ahead)};
     }
     before_[count_ - 1].one_less_cosine = before_[count_ - 1].sine = 0.0;  // itself, a turn ago

@@ -50,7 +50,7 @@ void for_each_engaged_interval(const CuttingEdges& edges, double helix_tangent, 
     return part >= 1.0 ? depth : std::min(depth, edges.envelope().height_at_lag(all * part));
   };
   double past = angle_past_first_limit(helix_tangent, arc, tip_angle);
-  for (; past - width < lag; past += 2.0 * core::kPi) {
+  for (; past - width < lag; past += core::kTurn) {
     const double from = std::max(0.0, past - width) / lag;
     const double to = std::min(1.0, past / lag);
     if (from < to) visit(height(from), height(to));

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 6> kUnits = {"N/mm2", "N/mm2", "N/mm2", "N/mm"
 /// Mean of each axis over as many whole revolutions as the record has, from its first sample.
 RecordAverage mean_of(const Record& record) {
   const double per_turn =
-      2.0 * core::kPi / record.spindle_speed * record.trace.sampling_rate;  // samples
+      core::kTurn / record.spindle_speed * record.trace.sampling_rate;  // samples
   const double turns = std::floor(static_cast<double>(record.trace.size()) / per_turn);
   if (turns < 1.0) {
     throw core::InputError(
@@ -60,7 +60,7 @@ AverageFit average_fit(const cutter::Cutter& cutter, const std::vector<Record>& 
     check(record.trace);
     fit.records.push_back(mean_of(record));
     const force::ForceBasis basis = force::revolution_mean(cutter, record.engagement);
-    const double feed = record.feed_rate * 2.0 * core::kPi / (record.spindle_speed * cutter.flutes);
+    const double feed = record.feed_rate * core::kTurn / (record.spindle_speed * cutter.flutes);
     for (int axis = 0; axis < 3; ++axis) {
       if (!record.trace.has_axis(axis)) continue;
       measured[axis] = true;

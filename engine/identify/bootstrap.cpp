@@ -31,7 +31,7 @@ Parts parts_of(const JointProblem& problem, const std::vector<Record>& records, 
       parts.residual[axis].push_back(trace.force[axis][i] - parts.predicted[axis][i]);
     }
   }
-  const double samples = 2.0 * core::kPi / problem.states()[r].spindle_speed * trace.sampling_rate;
+  const double samples = core::kTurn / problem.states()[r].spindle_speed * trace.sampling_rate;
   // Of few revolutions shorter parts are drawn.
   const std::size_t longest = std::max<std::size_t>(1, trace.size() / kFewestParts);
   parts.length =

@@ -17,7 +17,7 @@ namespace millstudy::identify {
 namespace {
 
 double samples_per_turn(const Trace& trace, double spindle_speed) {
-  return 2.0 * core::kPi / spindle_speed * trace.sampling_rate;
+  return core::kTurn / spindle_speed * trace.sampling_rate;
 }
 
 /// Reorders its argument.
@@ -56,7 +56,7 @@ std::vector<double> harmonic_powers(const Trace& turn) {
     for (std::size_t k = 0; k < powers.size(); ++k) {
       std::complex<double> sum = 0.0;
       for (int i = 0; i < bins; ++i) {
-        const double angle = 2.0 * core::kPi * static_cast<double>((k + 1) * i % bins) / bins;
+        const double angle = core::kTurn * static_cast<double>((k + 1) * i % bins) / bins;
         sum += force[i] * std::complex<double>(std::cos(angle), -std::sin(angle));
       }
       powers[k] += std::norm(sum) / bins;

@@ -16,7 +16,7 @@ namespace {
 bool same_feed(const std::vector<Record>& records) {
   double low = INFINITY, high = 0.0;
   for (const Record& record : records) {
-    const double feed = record.feed_rate * 2.0 * core::kPi / record.spindle_speed;
+    const double feed = record.feed_rate * core::kTurn / record.spindle_speed;
     low = std::min(low, feed);
     high = std::max(high, feed);
   }
@@ -40,7 +40,7 @@ void check(const cutter::Cutter& cutter, const std::vector<Record>& records,
     if (!(record.spindle_speed > 0.0)) fault(record.name + ": spindle speed must be > 0");
     if (!(record.feed_rate > 0.0 && record.spindle_speed > 0.0)) continue;
     const double turns = static_cast<double>(record.trace.size()) / record.trace.sampling_rate *
-                         record.spindle_speed / (2.0 * core::kPi);
+                         record.spindle_speed / core::kTurn;
     if (turns < 1.0) {
       fault(fmt::format("{}: {:.2g} revolutions of the spindle; a fit needs at least one",
                         record.name, turns));

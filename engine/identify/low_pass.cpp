@@ -23,8 +23,8 @@ std::vector<double> low_pass(std::span<const double> signal, double frequency, d
   double sum = 0.0;
   for (std::size_t i = 0; i < length; ++i) {
     const double t = static_cast<double>(i) - 0.5 * static_cast<double>(length - 1);
-    const double x = 2.0 * core::kPi * frequency / sampling_rate * t;
-    const double w = 2.0 * core::kPi * static_cast<double>(i + 1) / static_cast<double>(length + 1);
+    const double x = core::kTurn * frequency / sampling_rate * t;
+    const double w = core::kTurn * static_cast<double>(i + 1) / static_cast<double>(length + 1);
     weights[i] =
         (x == 0.0 ? 1.0 : std::sin(x) / x) * (0.42 - 0.5 * std::cos(w) + 0.08 * std::cos(2.0 * w));
     sum += weights[i];

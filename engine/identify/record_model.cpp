@@ -209,7 +209,7 @@ double RecordModel::middle() const {
 }
 
 double RecordModel::feed_per_tooth(double spindle_speed) const {
-  return record_.feed_rate * 2.0 * core::kPi / (spindle_speed * cutter_.flutes);
+  return record_.feed_rate * core::kTurn / (spindle_speed * cutter_.flutes);
 }
 
 double RecordModel::angle_at(const RecordState& state, double sample) const {

@@ -35,7 +35,7 @@ class HarmonicPower {
   double at(double speed) const {
     const double step = speed / rate_;
     const int harmonics =
-        std::max(1, std::min(kHarmonics, static_cast<int>(0.45 * 2.0 * core::kPi / step)));
+        std::max(1, std::min(kHarmonics, static_cast<int>(0.45 * core::kTurn / step)));
     std::vector<std::complex<double>> sums(forces_.size() * static_cast<std::size_t>(harmonics));
     for (std::size_t i = 0; i < samples_; ++i) {
       const double angle = step * static_cast<double>(i);
@@ -69,11 +69,11 @@ SpindleSpeed estimate_spindle_speed(const Trace& trace, double nominal) {
   const double all = static_cast<double>(trace.size());
   // A short stretch first: the finer a speed is told, the narrower the range that is left.
   double speed = nominal, range = kRange * nominal;
-  double samples = std::min(all, 8.0 * 2.0 * core::kPi / nominal * rate);
+  double samples = std::min(all, 8.0 * core::kTurn / nominal * rate);
   for (;;) {
     const HarmonicPower power(trace, static_cast<std::size_t>(samples));
     // Between neighbours the tenth harmonic turns by an eighth over the stretch.
-    const double step = 2.0 * core::kPi * rate / samples / 80.0;
+    const double step = core::kTurn * rate / samples / 80.0;
     const int steps = std::max(2, static_cast<int>(std::ceil(range / step)));
     double best = -1.0, found = speed;
     for (int i = -steps; i <= steps; ++i) {
@@ -100,7 +100,7 @@ SpindleSpeed estimate_spindle_speed(const Trace& trace, double nominal) {
       return {found, power.at(found)};
     }
     speed = found;
-    range = 2.0 * core::kPi * rate / samples / 8.0;
+    range = core::kTurn * rate / samples / 8.0;
     samples = std::min(all, 3.0 * samples);
   }
 }

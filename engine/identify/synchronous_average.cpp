@@ -9,7 +9,7 @@
 namespace millstudy::identify {
 
 Trace synchronous_average(const Trace& trace, double spindle_speed) {
-  const double per_turn = 2.0 * core::kPi / spindle_speed * trace.sampling_rate;
+  const double per_turn = core::kTurn / spindle_speed * trace.sampling_rate;
   const int bins = std::clamp(static_cast<int>(per_turn), 24, 360);
   const double middle = 0.5 * static_cast<double>(trace.size() - 1);
   std::vector<double> counts(bins, 0.0);
@@ -19,7 +19,7 @@ Trace synchronous_average(const Trace& trace, double spindle_speed) {
     bin_of[i] = std::min(bins - 1, static_cast<int>((turns - std::floor(turns)) * bins));
     counts[bin_of[i]] += 1.0;
   }
-  Trace mean{trace.source, spindle_speed * bins / (2.0 * core::kPi), 0.0, {}};
+  Trace mean{trace.source, spindle_speed * bins / core::kTurn, 0.0, {}};
   for (int axis = 0; axis < 3; ++axis) {
     if (!trace.has_axis(axis)) continue;
     std::vector<double>& force = mean.force[axis];

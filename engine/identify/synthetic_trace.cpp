@@ -24,7 +24,7 @@ class Normal {
       return second_;
     }
     const double size = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    const double angle = 2.0 * core::kPi * uniform();
+    const double angle = core::kTurn * uniform();
     second_ = size * std::sin(angle);
     has_second_ = true;
     return size * std::cos(angle);
@@ -86,7 +86,7 @@ Trace synthetic_trace(const cutter::Cutter& cutter, const force::Engagement& eng
       std::make_shared<const force::CuttingEdges>(cutter, engagement.axial_depth, variation);
   const force::NonlinearForce kernel(edges, {});
   const force::Arc arc = engagement.arc();
-  const force::Feed feed = {m.feed_rate * 2.0 * core::kPi / (m.spindle_speed * cutter.flutes)};
+  const force::Feed feed = {m.feed_rate * core::kTurn / (m.spindle_speed * cutter.flutes)};
   std::array<std::vector<dynamics::ModeFilter>, 3> filters;
   std::array<std::vector<dynamics::ModeFilter::State>, 3> states;
   for (int axis = 0; axis < 3; ++axis) {

@@ -48,7 +48,7 @@ Clusters clusters_of(const JointProblem& problem, std::size_t record) {
   const auto size = static_cast<Index>(parameters.size());
   const double residuals = static_cast<double>(model.residuals());
   const double turns = static_cast<double>(model.samples()) / model.record().trace.sampling_rate *
-                       state.spindle_speed / (2.0 * core::kPi);
+                       state.spindle_speed / core::kTurn;
   const int count = std::max(kFewestClusters, static_cast<int>(turns));
   const NormalEquations none{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   Clusters out{std::vector<NormalEquations>(count, none), none};

@@ -36,7 +36,7 @@ void read_mode(FitReader& read, const core::Value& item, int axis) {
   const std::string name_of_section = fmt::format("dynamometer.{}", kAxisNames[axis]);
   read.for_each_key(item, name_of_section, [&](const Key& key, const core::Value& value) {
     const double x = std::get<double>(checked_setting(key, value));
-    if (key.name() == "frequency_Hz") mode.mode.natural_frequency = 2.0 * core::kPi * x;
+    if (key.name() == "frequency_Hz") mode.mode.natural_frequency = core::kTurn * x;
     if (key.name() == "damping_ratio") mode.mode.damping_ratio = x;
     if (key.name() == "gain") mode.gain = x;
   });

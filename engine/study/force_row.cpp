@@ -95,7 +95,7 @@ void fill_force_row(const Case& point, const Outputs& outputs, const force::Forc
   for (const force::Statistics& s : {force.x, force.y, force.z, force.resultant}) {
     for (const double value : {s.mean, s.min, s.max, s.rms}) put(value);
   }
-  const double angular_speed = 2.0 * core::kPi * point.cut.spindle_speed;  // [rad/s]
+  const double angular_speed = core::kTurn * point.cut.spindle_speed;  // [rad/s]
   const double torque_mean = core::newton_metre(force.torque_mean);
   const double torque_max = core::newton_metre(force.torque_max);
   put(torque_mean);

@@ -57,7 +57,7 @@ void put(const Key& key, const Setting& setting, PartsOfTurn field) {
   *field.angles = native(key, angles);
   if (std::abs(sum - kTurn) > kRounding) return;  // no full turn: the checks of the kind say so
   std::transform(angles.begin(), angles.end(), field.angles->begin(),
-                 [sum](double angle) { return angle / sum * 2.0 * core::kPi; });
+                 [sum](double angle) { return angle / sum * core::kTurn; });
 }
 void put(const Key&, const Setting& setting, CurvePtr* field) {
   *field = std::get<CurvePtr>(setting);

@@ -149,7 +149,7 @@ std::vector<core::Fault> fitted_modes(const Given& given, const Case& base) {
     std::vector<std::string> modes;
     for (const dynamics::AxisMode& m : response->fit.modes) {
       modes.push_back(fmt::format("{:.1f} Hz, {:.2f} %, {:.4g} N/m",
-                                  m.mode.natural_frequency / (2.0 * core::kPi),
+                                  m.mode.natural_frequency / core::kTurn,
                                   100.0 * m.mode.damping_ratio, 1e3 * m.stiffness));
     }
     notes.push_back({given.place({key}),

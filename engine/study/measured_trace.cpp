@@ -39,7 +39,7 @@ void fill_measured(const Case& point, sweep::Trace& trace) {
   m.sampling_rate = *section.sampling_rate;
   m.samples = static_cast<std::size_t>(samples);
   m.feed_rate = feed_rate(point);
-  m.spindle_speed = 2.0 * core::kPi * point.cut.spindle_speed * (1.0 + section.spindle_speed_error);
+  m.spindle_speed = core::kTurn * point.cut.spindle_speed * (1.0 + section.spindle_speed_error);
   m.phase = section.phase;
   for (int axis = 0; axis < 3; ++axis) {
     if (!section.offset.empty()) m.offset[axis] = section.offset[axis];
@@ -47,7 +47,7 @@ void fill_measured(const Case& point, sweep::Trace& trace) {
     if (section.mode_frequency.empty() || section.mode_frequency[axis] == 0.0) continue;
     const double gain = section.mode_gain.empty() ? 1.0 : section.mode_gain[axis];
     m.dynamometer[axis].push_back(
-        {{2.0 * core::kPi * section.mode_frequency[axis], section.mode_damping_ratio[axis]}, gain});
+        {{core::kTurn * section.mode_frequency[axis], section.mode_damping_ratio[axis]}, gain});
   }
   m.noise = section.noise;
   m.correlation = section.noise_correlation;

@@ -76,7 +76,7 @@ ResponsePtr read_response(const core::Value& table) {
                                            name, numbers.size()));
         continue;
       }
-      measured->omega.push_back(2.0 * core::kPi * numbers[0]);
+      measured->omega.push_back(core::kTurn * numbers[0]);
       measured->compliance.emplace_back(unit * numbers[1], unit * numbers[2]);
       read.canonical += fmt::format(" {} {} {}", numbers[0], unit * numbers[1], unit * numbers[2]);
     }

@@ -34,7 +34,7 @@ void append_samples(const Case& point, std::int64_t first, std::int64_t count,
   for (std::int64_t i = 0; i < count; ++i) {
     const double turn = static_cast<double>(first + i) / point.angular_steps;
     trace.time.push_back(static_cast<float>(turn / point.cut.spindle_speed));
-    trace.angle.push_back(static_cast<float>(2.0 * core::kPi * turn));
+    trace.angle.push_back(static_cast<float>(core::kTurn * turn));
     trace.force_x.push_back(static_cast<float>(samples.x[i]));
     trace.force_y.push_back(static_cast<float>(samples.y[i]));
     trace.force_z.push_back(static_cast<float>(samples.z[i]));

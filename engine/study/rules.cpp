@@ -55,7 +55,7 @@ std::vector<BrokenRule> broken_cutter_rules(const Case& point) {
   check_count("cutter.helix_deg", cutter.helix_angles, cutter.flutes, broken);
   const double turn = std::accumulate(cutter.pitch_angles.begin(), cutter.pitch_angles.end(), 0.0);
   constexpr double kRounding = 1e-9;  // full turns have been scaled
-  if (!cutter.pitch_angles.empty() && std::abs(turn - 2.0 * core::kPi) > kRounding) {
+  if (!cutter.pitch_angles.empty() && std::abs(turn - core::kTurn) > kRounding) {
     broken.push_back({"cutter.pitch_deg", "cutter.pitch_deg must add up to 360 deg",
                       fmt::format("{:.10g}", core::deg_from_rad(turn))});
   }
