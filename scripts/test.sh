@@ -6,6 +6,6 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 "$root/scripts/install_dependencies.sh"
 cd "$root"
-cmake --preset test
-cmake --build --preset test
-ctest --preset test --parallel "$(nproc)" "$@"
+cmake --preset ci
+cmake --build --preset ci
+ctest --preset ci --parallel "$(nproc)" "$@"
