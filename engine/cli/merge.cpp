@@ -110,30 +110,24 @@ class Joined {
  public:
   explicit Joined(const std::vector<Part>& parts) : parts_(parts) {}
 
-  sweep::Block read(std::int64_t first, std::int64_t count) {
+  /// Points from `first` on: as many as are in the same parts, at most so many.
+  const sweep::Block& read(std::int64_t first, std::int64_t most) {
     const sweep::Layout& layout = parts_[0].result.layout();
-    sweep::Block block(first, count, layout.columns.size(), layout.traces);
-    bool empty = true;
+    const std::int64_t border = next_border(parts_, first, layout.points());
+    std::int64_t end = std::min(first + most, border);
+    std::vector<const Part*> here;
     for (const Part& part : parts_) {
-      const std::int64_t from = std::max(first, part.first);
-      const std::int64_t to = std::min(first + count, part.end);
-      if (from >= to) continue;
-      sweep::Block own = part.result.read(from, to - from);
-      // Most pieces are of one part.
-      if (empty && own.count == count && !own.values.empty()) {
-        block = std::move(own);
-      } else {
-        add(own, block);
-      }
-      empty = false;
+      if (part.first <= first && first < part.end) here.push_back(&part);
     }
-    for (std::int64_t i = 0; i < count; ++i) {
-      if (block.status[i] == sweep::Status::not_run) missing_.add(first + i);
-      counts_.ok += block.status[i] == sweep::Status::ok;
-      counts_.failed += block.status[i] == sweep::Status::failed;
-      counts_.skipped += block.status[i] == sweep::Status::skipped;
+    if (end < border && !here.empty()) end = here[0]->result.last_border(first, end);
+    const std::int64_t count = end - first;
+    if (here.size() == 1) here[0]->result.read(first, count, block_);  // mostly
+    if (here.size() != 1 || block_.values.empty()) {
+      block_ = sweep::Block(first, count, layout.columns.size(), layout.traces);
+      for (const Part* part : here) add(part->result.read(first, count));
     }
-    return block;
+    count_statuses();
+    return block_;
   }
   const Ranges& twice() const { return twice_; }
   const Ranges& missing() const { return missing_; }
@@ -141,19 +135,28 @@ class Joined {
 
  private:
   /// Points that were run, and that the block does not have yet.
-  void add(sweep::Block& own, sweep::Block& block) {
-    for (std::int64_t k = 0; k < own.count; ++k) {
-      const std::int64_t i = own.first - block.first + k;
-      if (own.status[k] == sweep::Status::not_run) continue;
-      if (block.status[i] != sweep::Status::not_run) {
-        twice_.add(own.first + k);
+  void add(sweep::Block own) {
+    for (std::int64_t i = 0; i < own.count; ++i) {
+      if (own.status[i] == sweep::Status::not_run) continue;
+      if (block_.status[i] != sweep::Status::not_run) {
+        twice_.add(own.first + i);
         continue;
       }
-      sweep::copy_point(own, k, block, i);
+      sweep::copy_point(own, i, block_, i);
+    }
+  }
+
+  void count_statuses() {
+    for (std::int64_t i = 0; i < block_.count; ++i) {
+      if (block_.status[i] == sweep::Status::not_run) missing_.add(block_.first + i);
+      counts_.ok += block_.status[i] == sweep::Status::ok;
+      counts_.failed += block_.status[i] == sweep::Status::failed;
+      counts_.skipped += block_.status[i] == sweep::Status::skipped;
     }
   }
 
   const std::vector<Part>& parts_;
+  sweep::Block block_{0, 0, 0, false};
   Ranges twice_, missing_;
   Counts counts_;
 };
@@ -190,9 +193,13 @@ int merge(const std::string& output, const std::vector<std::string>& files) {
   const auto writer = io::make_result_writer(output, layout);
   Joined joined(parts);
   const std::int64_t step = at_once(layout);
-  for (std::int64_t first = 0, end = 0; first < layout.points(); first = end) {
-    end = std::min(first + step, next_border(parts, first, layout.points()));
-    writer->write(joined.read(first, end - first));
+  for (std::int64_t next = 0; next < layout.points();) {
+    const sweep::Block& block = joined.read(next, step);
+    writer->write(block);
+    next += block.count;
+    for (Part& part : parts) {
+      if (part.end <= next) part.result.close();
+    }
   }
   std::vector<core::Fault> faults;
   const auto check = [&](const Ranges& points, const char* what) {

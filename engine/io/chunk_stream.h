@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <cstring>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -56,10 +56,12 @@ class ChunkStream {
  public:
   /// @param shape  of the variable; {0} of an unlimited one, which grows
   /// @param chunk  as row_major_chunk gives it; of any size for a scalar
-  ChunkStream(hdf5::Handle dataset, Shape shape, Shape chunk)
+  /// @param fill   what the file has where nothing was written
+  ChunkStream(hdf5::Handle dataset, Shape shape, Shape chunk, T fill)
       : dataset_(std::move(dataset)),
         shape_(std::move(shape)),
         chunk_(std::move(chunk)),
+        fill_(fill),
         unlimited_(shape_.size() == 1 && shape_[0] == 0) {}
 
   void append(std::span<const T> values) {
@@ -102,14 +104,10 @@ class ChunkStream {
   hid_t dataset() const { return dataset_.get(); }
 
  private:
-  /// Nothing but the fill value, NaN: what the file has where nothing was written.
+  /// Nothing but the fill value, bit for bit.
   bool is_empty() const {
-    if constexpr (std::is_same_v<T, double>) {
-      constexpr auto kFill = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN());
-      return std::all_of(held_.begin(), held_.end(),
-                         [](double value) { return std::bit_cast<std::uint64_t>(value) == kFill; });
-    }
-    return false;
+    return std::all_of(held_.begin(), held_.end(),
+                       [&](const T& value) { return std::memcmp(&value, &fill_, sizeof(T)) == 0; });
   }
 
   /// Where the chunk being filled ends.
@@ -121,6 +119,7 @@ class ChunkStream {
   hdf5::Handle dataset_;
   Shape shape_;
   Shape chunk_;
+  T fill_;
   bool unlimited_;
   std::int64_t next_ = 0;  // first element not in the file
   std::vector<T> held_;

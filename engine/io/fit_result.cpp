@@ -49,6 +49,7 @@ class Variables {
            const std::string& meaning) {
     hdf5::DatasetOptions options;
     options.fill = std::numeric_limits<double>::quiet_NaN();
+    options.fill_is_missing = true;
     hdf5::Handle dataset = hdf5::create_dataset(file_, name, H5T_IEEE_F64LE, shape, options);
     const auto count = static_cast<std::int64_t>(values.size());
     hdf5::write_range(dataset.get(), H5T_NATIVE_DOUBLE, shape, 0, count, values.data());

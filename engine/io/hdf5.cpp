@@ -2,10 +2,13 @@
 #include "io/hdf5.h"
 
 #include <algorithm>
+#include <array>
 #include <hdf5_hl.h>
 
 namespace millstudy::io::hdf5 {
 namespace {
+
+constexpr std::uint32_t kAllFilters = ~std::uint32_t{0};
 
 std::vector<hsize_t> sizes(std::span<const std::int64_t> shape) {
   return {shape.begin(), shape.end()};
@@ -62,6 +65,54 @@ void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64
     offset += element_count(box.count);
   }
 }
+
+/// The chunks of a variable, each one run of the row-major order, that are stored as they are in
+/// memory: the library would copy them through its cache, box by box.
+class PlainChunks {
+ public:
+  /// @return nothing where the variable has no such chunks
+  static std::optional<PlainChunks> of(hid_t dataset, hid_t memory_type, const Shape& shape) {
+    const Handle type(H5Dget_type(dataset), "read a type");
+    if (shape.empty() || check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
+    Shape chunk = chunk_of(dataset);
+    if (chunk.empty() || !is_row_major(shape, chunk)) return {};
+    return PlainChunks(dataset, shape, std::move(chunk), H5Tget_size(memory_type));
+  }
+
+  std::int64_t elements() const { return element_count(chunk_); }
+  /// Where the chunk that holds an element ends.
+  std::int64_t end(std::int64_t element) const { return chunk_end(shape_, chunk_, element); }
+
+  /// True if the chunk that begins at an element went past all filters.
+  bool is_plain(std::int64_t element) const {
+    unsigned skipped = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t bytes = 0;
+    return H5Dget_chunk_info_by_coord(dataset_, start(element).data(), &skipped, &address,
+                                      &bytes) >= 0 &&
+           address != HADDR_UNDEF && skipped == kAllFilters &&
+           bytes == static_cast<hsize_t>(elements()) * size_;
+  }
+
+  void read(std::int64_t element, void* to) const {
+    std::uint32_t skipped = 0;
+    check(H5Dread_chunk(dataset_, H5P_DEFAULT, start(element).data(), &skipped, to),
+          "read a variable");
+  }
+
+ private:
+  PlainChunks(hid_t dataset, Shape shape, Shape chunk, std::size_t size)
+      : dataset_(dataset), shape_(std::move(shape)), chunk_(std::move(chunk)), size_(size) {}
+
+  std::vector<hsize_t> start(std::int64_t element) const {
+    return sizes(row_major_boxes(shape_, element, element + 1)[0].start);
+  }
+
+  hid_t dataset_;
+  Shape shape_;
+  Shape chunk_;
+  std::size_t size_;
+};
 
 }  // namespace
 
@@ -120,7 +171,7 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const S
   const Handle space = space_of(shape, options.unlimited);
   Handle dataset(H5Dcreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT, id, access.get()),
                  "create a variable");
-  if (options.fill) {
+  if (options.fill && options.fill_is_missing) {
     write_attribute_data(dataset.get(), "_FillValue", type, H5T_NATIVE_DOUBLE, {1}, &*options.fill);
   }
   return dataset;
@@ -139,6 +190,15 @@ Shape shape_of(hid_t dataset) {
   return {lengths.begin(), lengths.end()};
 }
 
+Shape chunk_of(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
+  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return {};
+  std::array<hsize_t, H5S_MAX_RANK> lengths{};
+  const int rank =
+      check(H5Pget_chunk(creation.get(), H5S_MAX_RANK, lengths.data()), "read a chunk");
+  return {lengths.begin(), lengths.begin() + rank};
+}
+
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                  std::int64_t count, const void* data) {
   const std::size_t size = H5Tget_size(memory_type);
@@ -149,7 +209,6 @@ void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int6
 }
 
 void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std::byte> bytes) {
-  constexpr std::uint32_t kAllFilters = ~std::uint32_t{0};
   check(H5Dwrite_chunk(dataset, H5P_DEFAULT, kAllFilters, sizes(start.start).data(), bytes.size(),
                        bytes.data()),
         "write a variable");
@@ -158,10 +217,25 @@ void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std
 void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                 std::int64_t count, void* data) {
   const std::size_t size = H5Tget_size(memory_type);
-  for_boxes(dataset, shape, begin, count, [&](hid_t memory, hid_t file, std::int64_t offset) {
-    char* at = static_cast<char*>(data) + static_cast<std::size_t>(offset) * size;
-    check(H5Dread(dataset, memory_type, memory, file, H5P_DEFAULT, at), "read a variable");
-  });
+  const auto at = [&](std::int64_t element) {
+    return static_cast<char*>(data) + static_cast<std::size_t>(element - begin) * size;
+  };
+  const auto read = [&](std::int64_t from, std::int64_t to) {
+    for_boxes(dataset, shape, from, to - from, [&](hid_t memory, hid_t file, std::int64_t offset) {
+      check(H5Dread(dataset, memory_type, memory, file, H5P_DEFAULT, at(from + offset)),
+            "read a variable");
+    });
+  };
+  const std::optional<PlainChunks> chunks = PlainChunks::of(dataset, memory_type, shape);
+  std::int64_t todo = begin;  // read with the next box
+  for (std::int64_t from = begin, to = begin; chunks && from < begin + count; from = to) {
+    to = std::min(begin + count, chunks->end(from));
+    if (to - from != chunks->elements() || !chunks->is_plain(from)) continue;
+    if (todo < from) read(todo, from);
+    chunks->read(from, at(from));
+    todo = to;
+  }
+  if (todo < begin + count) read(todo, begin + count);
 }
 
 void make_scale(hid_t dataset, const std::string& name) {

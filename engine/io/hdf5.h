@@ -65,12 +65,12 @@ Result check(Result result, const char* doing);
 Handle open_file_to_read(const std::string& path);
 
 struct DatasetOptions {
-  Shape chunk = {};        ///< empty: contiguous
-  bool unlimited = false;  ///< one dimension that grows from 0
-  int gzip = 0;            ///< level; with byte shuffle when > 0; chunked only
-  /// Fill value of a float variable, written as _FillValue too.
-  std::optional<double> fill = std::nullopt;
-  bool allocate = true;  ///< false: elements that nobody writes take no space
+  Shape chunk = {};                           ///< empty: contiguous
+  bool unlimited = false;                     ///< one dimension that grows from 0
+  int gzip = 0;                               ///< level; with byte shuffle when > 0; chunked only
+  std::optional<double> fill = std::nullopt;  ///< of elements that nobody writes; else 0
+  bool fill_is_missing = false;  ///< told to readers as _FillValue: such elements have no value
+  bool allocate = true;          ///< false: elements that nobody writes take no space
 };
 
 /// @param type   stored type, e.g. H5T_IEEE_F64LE
@@ -82,6 +82,8 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const S
 void extend(hid_t dataset, std::int64_t length);
 
 Shape shape_of(hid_t dataset);
+/// Of a chunk; empty if the dataset is not in chunks.
+Shape chunk_of(hid_t dataset);
 
 /// Writes elements begin .. begin + count - 1, counted in row-major order.
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,

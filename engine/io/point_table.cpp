@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
-#include <hdf5_hl.h>
 #include <sstream>
 
 #include "core/error.h"
@@ -39,23 +39,22 @@ std::string name_of(hid_t object) {
   return name[0] == '/' ? name.data() + 1 : name.data();
 }
 
-/// H5DSiterate_scales callback: keeps the address of the first scale.
-herr_t keep_address(hid_t /*dataset*/, unsigned /*dimension*/, hid_t scale, void* address) {
-  H5O_info_t info;
-  if (H5Oget_info2(scale, &info, H5O_INFO_BASIC) < 0) return -1;
-  *static_cast<haddr_t*>(address) = info.addr;
-  return 1;
-}
-
-/// Where in the file the scale of each dimension is, if there is one: to look for its name takes
-/// much longer.
+/// Where in the file the first scale of each dimension is, if there is one. Read from the attribute
+/// of the specification of dimension scales at once: the library's functions open every scale.
 std::vector<haddr_t> scales_of(hid_t dataset, std::size_t rank) {
+  constexpr const char* kName = "DIMENSION_LIST";
   std::vector<haddr_t> scales(rank, HADDR_UNDEF);
+  if (rank == 0 || H5Aexists(dataset, kName) <= 0) return scales;
+  const Handle attribute(H5Aopen(dataset, kName, H5P_DEFAULT), "open an attribute");
+  const Handle space(H5Aget_space(attribute.get()), "read a shape");
+  const Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), "make a type");
+  if (H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(rank)) return scales;
+  std::vector<hvl_t> lists(rank);
+  hdf5::check(H5Aread(attribute.get(), type.get(), lists.data()), "read dimensions");
   for (std::size_t d = 0; d < rank; ++d) {
-    const auto dimension = static_cast<unsigned>(d);
-    if (H5DSget_num_scales(dataset, dimension) < 1) continue;
-    H5DSiterate_scales(dataset, dimension, nullptr, keep_address, &scales[d]);
+    if (lists[d].len > 0) std::memcpy(&scales[d], lists[d].p, sizeof(hobj_ref_t));
   }
+  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, lists.data());
   return scales;
 }
 
@@ -106,13 +105,18 @@ Cells read_cells(hid_t dataset, Kind kind, const Shape& shape, std::int64_t begi
   return values;
 }
 
-/// Texts[value] of every number; `other` where there is none.
+/// texts[number], if there is one.
 template <class Texts>
-std::vector<std::string> words(const Cells& cells, const Texts& texts, const std::string& other) {
+std::string word(double number, const Texts& texts) {
+  const bool known = number >= 0.0 && number < static_cast<double>(texts.size());
+  return known ? std::string(texts[static_cast<std::size_t>(number)]) : "unknown";
+}
+
+template <class Texts>
+std::vector<std::string> words(const Cells& cells, const Texts& texts) {
   std::vector<std::string> result;
-  for (const double value : std::get<std::vector<double>>(cells)) {
-    const bool known = value >= 0.0 && value < static_cast<double>(texts.size());
-    result.emplace_back(known ? std::string(texts[static_cast<std::size_t>(value)]) : other);
+  for (const double number : std::get<std::vector<double>>(cells)) {
+    result.push_back(word(number, texts));
   }
   return result;
 }
@@ -128,6 +132,7 @@ PointTable::PointTable(const std::string& path) : path_(path) {
     throw core::InputError({path, 0}, "is no result of a study: it has no status");
   const Handle status = open(file_.get(), "status");
   shape_ = hdf5::shape_of(status.get());
+  if (Shape chunk = hdf5::chunk_of(status.get()); is_row_major(shape_, chunk)) chunk_ = chunk;
   scales_ = scales_of(status.get(), shape_.size());
   for (const haddr_t scale : scales_) {
     if (scale == HADDR_UNDEF)
@@ -178,7 +183,8 @@ void PointTable::add_variables() {
     Handle dataset = open(file_.get(), name);
     const H5T_class_t type = class_of(dataset.get());
     if (type != H5T_FLOAT && type != H5T_INTEGER) continue;
-    if (hdf5::shape_of(dataset.get()) != shape_ || H5DSis_scale(dataset.get()) > 0) continue;
+    if (hdf5::shape_of(dataset.get()) != shape_) continue;
+    // A scale has no scales itself.
     if (scales_of(dataset.get(), shape_.size()) != scales_) continue;
     columns_.push_back(make_column(std::move(dataset), name));
   }
@@ -201,10 +207,24 @@ Handle PointTable::other(const std::string& name) const {
   return open(file_.get(), name);
 }
 
-std::vector<double> PointTable::numbers(const PointColumn& column, std::int64_t begin,
-                                        std::int64_t count) const {
-  return std::get<std::vector<double>>(
-      read_cells(column.dataset.get(), Kind::number, shape_, begin, count));
+void PointTable::read_numbers(const PointColumn& column, std::int64_t begin,
+                              std::span<double> to) const {
+  hdf5::read_range(column.dataset.get(), H5T_NATIVE_DOUBLE, shape_, begin,
+                   static_cast<std::int64_t>(to.size()), to.data());
+}
+
+std::int64_t PointTable::last_border(std::int64_t begin, std::int64_t end) const {
+  if (chunk_.empty()) return end;
+  std::int64_t border = end;
+  for (std::int64_t next = begin; next < end;) {
+    next = chunk_end(shape_, chunk_, next);
+    if (next <= end) border = next;
+  }
+  return border;
+}
+
+std::string PointTable::reason(double code) const {
+  return word(code, reasons_);
 }
 
 Cells PointTable::read(const PointColumn& column, std::int64_t begin, std::int64_t count) const {
@@ -222,8 +242,8 @@ Cells PointTable::read(const PointColumn& column, std::int64_t begin, std::int64
   }
   const Kind stored = column.kind == Kind::text ? Kind::text : Kind::number;
   Cells cells = read_cells(column.dataset.get(), stored, shape_, begin, count);
-  if (column.kind == Kind::status) return words(cells, kStatusWords, "unknown");
-  if (column.kind == Kind::failure) return words(cells, reasons_, "unknown");
+  if (column.kind == Kind::status) return words(cells, kStatusWords);
+  if (column.kind == Kind::failure) return words(cells, reasons_);
   return cells;
 }
 

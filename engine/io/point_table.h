@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,9 +42,13 @@ class PointTable {
   hdf5::Handle other(const std::string& name) const;
   const std::vector<PointColumn>& columns() const { return columns_; }
 
-  /// Numbers as they are stored: of status and failure the codes.
-  std::vector<double> numbers(const PointColumn& column, std::int64_t begin,
-                              std::int64_t count) const;
+  /// Fills `to` with the numbers of points begin, begin + 1, ... as they are stored: of status and
+  /// failure the codes.
+  void read_numbers(const PointColumn& column, std::int64_t begin, std::span<double> to) const;
+  /// Where, of points begin .. end - 1, the last chunk ends that is whole; end if there is none.
+  std::int64_t last_border(std::int64_t begin, std::int64_t end) const;
+  /// What the code of a failure says; empty of none.
+  std::string reason(double code) const;
   /// Cells of points begin .. begin + count - 1: texts for texts, status ("ok", ...) and failure
   /// (empty where none), numbers for the rest.
   Cells read(const PointColumn& column, std::int64_t begin, std::int64_t count) const;
@@ -55,6 +60,7 @@ class PointTable {
   std::string path_;
   hdf5::Handle file_;
   Shape shape_;
+  Shape chunk_;                          // of status; empty if it is in no row-major chunks
   std::vector<haddr_t> scales_;          // of the dimensions
   std::vector<std::string> dimensions_;  // their names
   std::int64_t points_ = 1;

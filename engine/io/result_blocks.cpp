@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
 #include "io/point_table.h"
@@ -40,6 +42,42 @@ Traces open_traces(const PointTable& table) {
   return traces;
 }
 
+/// Traces of the points of a block: those that follow one another in the file are read at once.
+void read_traces(const Traces& from, const Shape& shape, sweep::Block& block) {
+  const auto points = static_cast<std::size_t>(block.count);
+  std::vector<std::int64_t> start(points), length(points);
+  const auto read_table = [&](const hdf5::Handle& dataset, std::vector<std::int64_t>& to) {
+    hdf5::read_range(dataset.get(), H5T_NATIVE_INT64, shape, block.first, block.count, to.data());
+  };
+  read_table(from.start, start);
+  read_table(from.count, length);
+  constexpr std::array kChannels = {&sweep::Trace::time, &sweep::Trace::angle,
+                                    &sweep::Trace::force_x, &sweep::Trace::force_y,
+                                    &sweep::Trace::force_z};
+  block.traces.resize(points);
+  std::vector<float> samples;
+  for (std::size_t begin = 0, end = 0; begin < points; begin = end) {
+    std::int64_t last = start[begin];  // of the samples, past the end
+    for (; end < points && start[end] == last; ++end) {
+      if (start[end] < 0 || length[end] < 0 || length[end] > from.length[0] - start[end]) {
+        throw hdf5::Error("the table of traces is damaged");
+      }
+      last += length[end];
+    }
+    samples.resize(static_cast<std::size_t>(last - start[begin]));
+    if (samples.empty()) continue;
+    for (std::size_t k = 0; k < kChannels.size(); ++k) {
+      hdf5::read_range(from.samples[k].get(), H5T_NATIVE_FLOAT, from.length, start[begin],
+                       last - start[begin], samples.data());
+      const float* next = samples.data();
+      for (std::size_t i = begin; i < end; ++i) {
+        (block.traces[i].*kChannels[k]).assign(next, next + length[i]);
+        next += length[i];
+      }
+    }
+  }
+}
+
 bool has_traces(const PointTable& table) {
   const hdf5::QuietErrors quiet;
   try {
@@ -53,17 +91,17 @@ bool has_traces(const PointTable& table) {
 }  // namespace
 
 struct ResultBlocks::Open {
-  explicit Open(const std::string& file) : path(file), table(file) {}
+  explicit Open(const std::string& file) : path(file), table(std::in_place, file) {}
 
   const PointColumn& column(PointColumn::Kind kind) const {
-    for (const PointColumn& c : table.columns()) {
+    for (const PointColumn& c : table->columns()) {
       if (c.kind == kind) return c;
     }
     throw core::InputError({path, 0}, "is no result of a study: it has no status or no failures");
   }
 
   std::string path;
-  PointTable table;
+  std::optional<PointTable> table;  ///< until it is closed
   sweep::Layout layout;
   std::vector<const PointColumn*> values;
   std::optional<Traces> traces;
@@ -73,7 +111,7 @@ ResultBlocks::ResultBlocks(const std::string& path) {
   const hdf5::QuietErrors quiet;
   try {
     open_ = std::make_unique<Open>(path);
-    const PointTable& table = open_->table;
+    const PointTable& table = *open_->table;
     sweep::Layout& layout = open_->layout;
     layout.dimensions = table.dimensions();
     layout.shape = table.shape();
@@ -109,55 +147,57 @@ const sweep::Layout& ResultBlocks::layout() const {
   return open_->layout;
 }
 
+void ResultBlocks::close() {
+  open_->traces.reset();
+  open_->values.clear();
+  open_->table.reset();
+}
+
 sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
+  sweep::Block block(first, count, 0, false);
+  read(first, count, block);
+  return block;
+}
+
+std::int64_t ResultBlocks::last_border(std::int64_t first, std::int64_t end) const {
+  assert(open_->table);
+  return open_->table->last_border(first, end);
+}
+
+void ResultBlocks::read(std::int64_t first, std::int64_t count, sweep::Block& block) const {
+  assert(open_->table);
   const hdf5::QuietErrors quiet;
   const Open& open = *open_;
-  sweep::Block block(first, count, 0, false);
+  const auto points = static_cast<std::size_t>(count);
+  block.first = first;
+  block.count = count;
+  block.status.resize(points);
+  block.failures.assign(points, {});
+  block.traces.clear();
   try {
-    const std::vector<double> status =
-        open.table.numbers(open.column(PointColumn::Kind::status), first, count);
-    for (std::int64_t i = 0; i < count; ++i) {
-      if (!(status[i] >= 0.0 && status[i] <= 3.0))
+    std::vector<double> codes(points);
+    open.table->read_numbers(open.column(PointColumn::Kind::status), first, codes);
+    for (std::size_t i = 0; i < points; ++i) {
+      if (!(codes[i] >= 0.0 && codes[i] <= 3.0))
         throw core::InputError({open.path, 0}, "has an unknown status");
-      block.status[i] = static_cast<sweep::Status>(static_cast<std::int8_t>(status[i]));
+      block.status[i] = static_cast<sweep::Status>(static_cast<std::int8_t>(codes[i]));
     }
     const bool any = std::any_of(block.status.begin(), block.status.end(),
                                  [](sweep::Status one) { return one != sweep::Status::not_run; });
-    if (!any) return block;
-    block.values.resize(open.values.size() * static_cast<std::size_t>(count));
-    if (open.traces) block.traces.resize(static_cast<std::size_t>(count));
+    block.values.resize(any ? open.values.size() * points : 0);
+    if (!any) return;
     for (std::size_t c = 0; c < open.values.size(); ++c) {
-      const std::vector<double> numbers = open.table.numbers(*open.values[c], first, count);
-      std::copy(numbers.begin(), numbers.end(),
-                block.values.begin() + static_cast<std::ptrdiff_t>(c * numbers.size()));
+      open.table->read_numbers(*open.values[c], first,
+                               std::span(block.values).subspan(c * points, points));
     }
-    block.failures = std::get<std::vector<std::string>>(
-        open.table.read(open.column(PointColumn::Kind::failure), first, count));
-    if (!open.traces) return block;
-    const Shape& shape = open.layout.shape;
-    std::vector<std::int64_t> start(count), length(count);
-    hdf5::read_range(open.traces->start.get(), H5T_NATIVE_INT64, shape, first, count, start.data());
-    hdf5::read_range(open.traces->count.get(), H5T_NATIVE_INT64, shape, first, count,
-                     length.data());
-    for (std::int64_t i = 0; i < count; ++i) {
-      sweep::Trace& trace = block.traces[i];
-      const std::int64_t samples = open.traces->length[0];
-      if (start[i] < 0 || length[i] < 0 || start[i] > samples - length[i]) {
-        throw core::InputError({open.path, 0}, "has a damaged table of traces");
-      }
-      const std::array<std::vector<float>*, 5> channels = {
-          &trace.time, &trace.angle, &trace.force_x, &trace.force_y, &trace.force_z};
-      for (std::size_t k = 0; k < channels.size(); ++k) {
-        channels[k]->resize(static_cast<std::size_t>(length[i]));
-        if (length[i] == 0) continue;
-        hdf5::read_range(open.traces->samples[k].get(), H5T_NATIVE_FLOAT, open.traces->length,
-                         start[i], length[i], channels[k]->data());
-      }
+    open.table->read_numbers(open.column(PointColumn::Kind::failure), first, codes);
+    for (std::size_t i = 0; i < points; ++i) {
+      if (codes[i] != 0.0) block.failures[i] = open.table->reason(codes[i]);
     }
+    if (open.traces) read_traces(*open.traces, open.layout.shape, block);
   } catch (const hdf5::Error& error) {
     throw core::InputError({open.path, 0}, fmt::format("cannot be read: {}", error.what()));
   }
-  return block;
 }
 
 }  // namespace millstudy::io

@@ -25,6 +25,15 @@ class ResultBlocks {
   /// where none of them was run.
   /// @throws core::InputError if the file is damaged
   sweep::Block read(std::int64_t first, std::int64_t count) const;
+  /// The same into a block whose memory is used again.
+  void read(std::int64_t first, std::int64_t count, sweep::Block& block) const;
+
+  /// Up to where, of points first .. end - 1, no chunk of the file is cut: the rest of one that is
+  /// would be unpacked twice.
+  std::int64_t last_border(std::int64_t first, std::int64_t end) const;
+
+  /// Nothing more will be read: frees all but the layout.
+  void close();
 
  private:
   struct Open;

@@ -36,12 +36,14 @@ void ResultContent::append(const sweep::Block& block) {
   for (std::size_t c = 0; c < variables_.columns.size(); ++c) {
     variables_.columns[c].append({block.values.data() + c * count, count});
   }
+  std::vector<std::int8_t> status(count);
+  std::vector<std::int32_t> codes(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto status = static_cast<std::int8_t>(block.status[i]);
-    const std::int32_t code = failures_.code(block.failures[i]);
-    variables_.status.append({&status, 1});
-    variables_.failure_code.append({&code, 1});
+    status[i] = static_cast<std::int8_t>(block.status[i]);
+    codes[i] = block.failures[i].empty() ? 0 : failures_.code(block.failures[i]);
   }
+  variables_.status.append(status);
+  variables_.failure_code.append(codes);
   for (TraceVariables& traces : variables_.traces) traces.append(block);
 }
 

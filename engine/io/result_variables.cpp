@@ -15,6 +15,7 @@ namespace {
 
 using hdf5::Handle;
 
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr int kGzip = 1;  // measured: higher levels buy nothing on results
 
 struct Description {
@@ -37,11 +38,12 @@ void describe(hid_t dataset, const Description& description) {
   hdf5::write_attribute(dataset, "long_name", description.long_name);
 }
 
-/// Chunks of a part of a study are no larger than the part, or most of them would be empty space.
+/// A part of a study begins and ends within chunks, whose rest is empty space to pack and unpack:
+/// there they are small.
 std::int64_t chunk_elements(const sweep::Layout& layout) {
-  constexpr std::int64_t kFewest = 4096;
+  constexpr std::int64_t kFewest = 1024;
   if (layout.points_here == 0) return kChunkElements;
-  return std::clamp<std::int64_t>(layout.points_here, kFewest, kChunkElements);
+  return std::clamp<std::int64_t>(layout.points_here / 8, kFewest, kChunkElements);
 }
 
 /// Makes the variables of one file; knows its dimensions.
@@ -68,16 +70,19 @@ class Builder {
   }
 
   template <class T>
-  ChunkStream<T> create(const std::string& name, hid_t type, const Description& description) {
-    hdf5::DatasetOptions options{.chunk = chunk_, .gzip = kGzip};
-    if (std::is_same_v<T, double>) options.fill = std::numeric_limits<double>::quiet_NaN();
+  ChunkStream<T> create(const std::string& name, hid_t type, const Description& description,
+                        T fill) {
+    const hdf5::DatasetOptions options{.chunk = chunk_,
+                                       .gzip = kGzip,
+                                       .fill = static_cast<double>(fill),
+                                       .fill_is_missing = std::is_floating_point_v<T>};
     Handle dataset = hdf5::create_dataset(file_, name, type, layout_.shape, options);
     describe(dataset.get(), description);
     if (!auxiliary_.empty()) hdf5::write_attribute(dataset.get(), "coordinates", auxiliary_);
     for (std::size_t d = 0; d < scales_.size(); ++d) {
       hdf5::attach_scale(dataset.get(), scales_[d].get(), d);
     }
-    return {std::move(dataset), layout_.shape, chunk_};
+    return {std::move(dataset), layout_.shape, chunk_, fill};
   }
 
  private:
@@ -129,9 +134,9 @@ class Builder {
 TraceVariables create_traces(hid_t file, Builder& builder) {
   TraceVariables traces{
       builder.create<std::int64_t>("trace_start", H5T_STD_I64LE,
-                                   {"1", "first sample of the trace of a point"}),
+                                   {"1", "first sample of the trace of a point"}, 0),
       builder.create<std::int64_t>("trace_count", H5T_STD_I64LE,
-                                   {"1", "number of samples of the trace of a point"}),
+                                   {"1", "number of samples of the trace of a point"}, 0),
       {},
       create_bare_scale(file, "sample")};
   hdf5::write_attribute(traces.count.dataset(), "sample_dimension", std::string("sample"));
@@ -147,10 +152,12 @@ TraceVariables create_traces(hid_t file, Builder& builder) {
                                           {.chunk = {kChunkElements},
                                            .unlimited = true,
                                            .gzip = kGzip,
-                                           .fill = std::numeric_limits<double>::quiet_NaN()});
+                                           .fill = kMissing,
+                                           .fill_is_missing = true});
     describe(dataset.get(), description);
     hdf5::attach_scale(dataset.get(), traces.sample_scale.get(), 0);
-    traces.samples.emplace_back(std::move(dataset), Shape{0}, Shape{kChunkElements});
+    traces.samples.emplace_back(std::move(dataset), Shape{0}, Shape{kChunkElements},
+                                static_cast<float>(kMissing));
   }
   return traces;
 }
@@ -186,14 +193,15 @@ ResultVariables create_variables(hid_t file, const sweep::Layout& layout) {
   Builder builder(file, layout);
   std::vector<ChunkStream<double>> columns;
   for (const sweep::Column& column : layout.columns) {
-    columns.push_back(
-        builder.create<double>(column.name, H5T_IEEE_F64LE, {column.units, column.long_name}));
+    columns.push_back(builder.create<double>(column.name, H5T_IEEE_F64LE,
+                                             {column.units, column.long_name}, kMissing));
   }
   ResultVariables variables{
       std::move(columns),
-      builder.create<std::int8_t>("status", H5T_STD_I8LE, {"1", "what happened to the point"}),
+      builder.create<std::int8_t>("status", H5T_STD_I8LE, {"1", "what happened to the point"},
+                                  static_cast<std::int8_t>(sweep::Status::not_run)),
       builder.create<std::int32_t>("failure_code", H5T_STD_I32LE,
-                                   {"1", "index of the reason in failure"}),
+                                   {"1", "index of the reason in failure"}, 0),
       {}};
   const std::array<std::int8_t, 4> flags = {0, 1, 2, 3};
   hdf5::write_attribute(variables.status.dataset(), "flag_values", flags);

@@ -66,6 +66,16 @@ Shape row_major_chunk(std::span<const std::int64_t> shape, std::int64_t largest)
   return chunk;
 }
 
+bool is_row_major(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk) {
+  if (chunk.size() != shape.size()) return false;
+  bool whole = true;  // so are all dimensions that come after
+  for (std::size_t d = chunk.size(); d-- > 0;) {
+    if (chunk[d] < 1 || chunk[d] > shape[d] || (!whole && chunk[d] != 1)) return false;
+    whole = whole && chunk[d] == shape[d];
+  }
+  return true;
+}
+
 std::int64_t chunk_end(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
                        std::int64_t begin) {
   if (shape.empty()) return 1;

@@ -38,7 +38,11 @@ std::vector<Box> row_major_boxes(std::span<const std::int64_t> shape, std::int64
 /// @return shape of a chunk, each >= 1
 Shape row_major_chunk(std::span<const std::int64_t> shape, std::int64_t largest);
 
+/// True if chunks of this shape are such runs.
+bool is_row_major(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk);
+
 /// Where the chunk that holds element begin ends, in row-major order.
+/// @param chunk  is_row_major()
 std::int64_t chunk_end(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
                        std::int64_t begin);
 

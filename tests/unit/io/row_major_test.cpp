@@ -71,5 +71,27 @@ TEST(RowMajorChunk, IsOneRunOfTheOrderAndNotTooLarge) {
   }
 }
 
+TEST(RowMajorChunk, IsToldFromOthers) {
+  std::mt19937 random(3);
+  int runs = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    const Shape shape = random_shape(random);
+    Shape chunk;
+    for (const std::int64_t length : shape) {
+      chunk.push_back(std::uniform_int_distribution<std::int64_t>(1, length)(random));
+    }
+    // One run of the order: from its first element to its last there is no other.
+    const std::vector<std::int64_t> inside = elements(shape, {Shape(shape.size(), 0), chunk});
+    const bool is_run = inside.back() - inside.front() + 1 == element_count(chunk);
+    runs += is_run;
+    EXPECT_EQ(is_row_major(shape, chunk), is_run);
+    EXPECT_TRUE(is_row_major(shape, row_major_chunk(shape, 1 + trial % 50)));
+  }
+  EXPECT_GT(runs, 1000);
+  EXPECT_FALSE(is_row_major(Shape{4, 5}, Shape{5}));
+  EXPECT_FALSE(is_row_major(Shape{4}, Shape{5}));
+  EXPECT_FALSE(is_row_major(Shape{4}, Shape{0}));
+}
+
 }  // namespace
 }  // namespace millstudy::io

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "io/result_blocks.h"
+
+#include <cstring>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "io/result_writer.h"
+#include "io/sample_results.h"
+
+namespace millstudy::io {
+namespace {
+
+namespace fs = std::filesystem;
+using sample::Design;
+
+/// Points of a study that one part of it has run.
+struct Part {
+  std::int64_t first;
+  std::int64_t end;
+};
+
+class ResultBlocksTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = testing::TempDir() + "/blocks_" +
+            testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5";
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  void write(sweep::Layout layout, const Part& part) const {
+    layout.points_here = part.end - part.first;
+    const auto writer = make_result_writer(path_, layout);
+    const auto write_not_run = [&](std::int64_t count, std::int64_t first) {
+      writer->write(sweep::Block(first, count, layout.columns.size(), layout.traces));
+    };
+    if (part.first > 0) write_not_run(part.first, 0);
+    writer->write(sample::block(layout, part.first, part.end - part.first));
+    if (part.end < layout.points()) write_not_run(layout.points() - part.end, part.end);
+    writer->finish({});
+  }
+
+  std::string path_;
+};
+
+/// What read() should give.
+sweep::Block expected(const sweep::Layout& layout, const Part& part, std::int64_t first,
+                      std::int64_t count) {
+  sweep::Block block(first, count, layout.columns.size(), layout.traces);
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (first + i < part.first || first + i >= part.end) continue;
+    const sweep::Block point = sample::block(layout, first + i, 1);
+    block.status[i] = point.status[0];
+    block.failures[i] = point.failures[0];
+    for (std::size_t c = 0; c < layout.columns.size(); ++c) block.value(c, i) = point.value(c, 0);
+    if (layout.traces) block.traces[i] = point.traces[0];
+  }
+  return block;
+}
+
+void expect_same(const sweep::Block& block, const sweep::Block& other) {
+  ASSERT_EQ(block.first, other.first);
+  ASSERT_EQ(block.count, other.count);
+  ASSERT_EQ(block.status, other.status);
+  ASSERT_EQ(block.failures, other.failures);
+  if (!block.values.empty()) {  // they may be left out where nothing was run
+    ASSERT_EQ(block.values.size(), other.values.size());
+    ASSERT_EQ(
+        std::memcmp(block.values.data(), other.values.data(), block.values.size() * sizeof(double)),
+        0);
+  }
+  for (std::size_t i = 0; i < block.traces.size(); ++i) {
+    ASSERT_EQ(block.traces[i].time, other.traces[i].time);
+    ASSERT_EQ(block.traces[i].force_z, other.traces[i].force_z);
+  }
+}
+
+TEST_F(ResultBlocksTest, GiveEveryRangeBackBitForBit) {
+  std::mt19937 random(1);
+  const Part part = {7777, 21234};
+  const std::vector<std::vector<std::int64_t>> shapes = {{30000}, {300, 100}, {2, 15, 1000}};
+  for (const std::vector<std::int64_t>& shape : shapes) {
+    for (const bool traces : {false, true}) {
+      const sweep::Layout layout = sample::layout(shape, Design::grid, traces);
+      write(layout, part);
+      const ResultBlocks blocks(path_);
+      sweep::Block used(0, 0, 0, false);  // again and again
+      for (int trial = 0; trial < 20; ++trial) {
+        std::uniform_int_distribution<std::int64_t> any(0, layout.points() - 1);
+        const std::int64_t one = any(random), other = any(random);
+        const std::int64_t first = std::min(one, other), count = std::max(one, other) - first + 1;
+        blocks.read(first, count, used);
+        expect_same(used, expected(layout, part, first, count));
+        expect_same(blocks.read(first, count), used);
+      }
+    }
+  }
+}
+
+TEST_F(ResultBlocksTest, AreBestCutWhereTheirBordersSay) {
+  const sweep::Layout layout = sample::layout({300, 100}, Design::grid, false);
+  write(layout, {0, 30000});  // chunks of an eighth of it at most
+  const ResultBlocks blocks(path_);
+  EXPECT_EQ(blocks.last_border(0, 30000), 30000);
+  const std::int64_t chunk = blocks.last_border(0, 5000);
+  EXPECT_EQ(chunk % 100, 0);
+  EXPECT_LE(chunk, 5000);
+  EXPECT_GT(chunk, 1000);
+  EXPECT_EQ(blocks.last_border(0, 2 * chunk + 1), 2 * chunk);
+  EXPECT_EQ(blocks.last_border(chunk - 1, chunk + 1), chunk);
+  EXPECT_EQ(blocks.last_border(1, 7), 7);  // none
+}
+
+TEST_F(ResultBlocksTest, TakeNoSpaceForPointsOfOtherParts) {
+  const auto size = [&](std::int64_t rows) {
+    write(sample::layout({rows, 1000}, Design::grid, false), {5000, 15000});
+    return static_cast<std::int64_t>(fs::file_size(path_));
+  };
+  const std::int64_t small = size(20);
+  EXPECT_LT(size(1000) - small, 980 * 8 + 1000);  // the coordinate
+}
+
+}  // namespace
+}  // namespace millstudy::io
