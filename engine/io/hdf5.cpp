@@ -66,15 +66,28 @@ void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64
   }
 }
 
+/// Of a variable with these properties; empty if it is not in chunks.
+Shape chunk_set_in(hid_t creation) {
+  if (H5Pget_layout(creation) != H5D_CHUNKED) return {};
+  std::array<hsize_t, H5S_MAX_RANK> lengths{};
+  const int rank = check(H5Pget_chunk(creation, H5S_MAX_RANK, lengths.data()), "read a chunk");
+  return {lengths.begin(), lengths.begin() + rank};
+}
+
 /// The chunks of a variable, each one run of the row-major order, that are stored as they are in
 /// memory: the library would copy them through its cache, box by box.
 class PlainChunks {
  public:
   /// @return nothing where the variable has no such chunks
   static std::optional<PlainChunks> of(hid_t dataset, hid_t memory_type, const Shape& shape) {
+    const H5T_class_t kind = H5Tget_class(memory_type);  // texts hold addresses
+    if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || shape.empty()) return {};
     const Handle type(H5Dget_type(dataset), "read a type");
-    if (shape.empty() || check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
-    Shape chunk = chunk_of(dataset);
+    if (check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
+    if (shape_of(dataset) != shape) return {};
+    const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
+    if (H5Pget_nfilters(creation.get()) < 1) return {};  // nothing to go past
+    Shape chunk = chunk_set_in(creation.get());
     if (chunk.empty() || !is_row_major(shape, chunk)) return {};
     return PlainChunks(dataset, shape, std::move(chunk), H5Tget_size(memory_type));
   }
@@ -83,30 +96,25 @@ class PlainChunks {
   /// Where the chunk that holds an element ends.
   std::int64_t end(std::int64_t element) const { return chunk_end(shape_, chunk_, element); }
 
-  /// True if the chunk that begins at an element went past all filters.
-  bool is_plain(std::int64_t element) const {
-    unsigned skipped = 0;
-    haddr_t address = HADDR_UNDEF;
+  /// The chunk that begins at an element. False if it went through filters or is not there: `to`
+  /// may then hold anything.
+  bool read(std::int64_t element, void* to) const {
+    const std::vector<hsize_t> start =
+        sizes(row_major_boxes(shape_, element, element + 1)[0].start);
+    // Both look for the chunk in the same way, so that it has the size that there is room for.
     hsize_t bytes = 0;
-    return H5Dget_chunk_info_by_coord(dataset_, start(element).data(), &skipped, &address,
-                                      &bytes) >= 0 &&
-           address != HADDR_UNDEF && skipped == kAllFilters &&
-           bytes == static_cast<hsize_t>(elements()) * size_;
-  }
-
-  void read(std::int64_t element, void* to) const {
+    if (H5Dget_chunk_storage_size(dataset_, start.data(), &bytes) < 0 ||
+        bytes != static_cast<hsize_t>(elements()) * size_) {
+      return false;
+    }
     std::uint32_t skipped = 0;
-    check(H5Dread_chunk(dataset_, H5P_DEFAULT, start(element).data(), &skipped, to),
-          "read a variable");
+    check(H5Dread_chunk(dataset_, H5P_DEFAULT, start.data(), &skipped, to), "read a variable");
+    return skipped == kAllFilters;
   }
 
  private:
   PlainChunks(hid_t dataset, Shape shape, Shape chunk, std::size_t size)
       : dataset_(dataset), shape_(std::move(shape)), chunk_(std::move(chunk)), size_(size) {}
-
-  std::vector<hsize_t> start(std::int64_t element) const {
-    return sizes(row_major_boxes(shape_, element, element + 1)[0].start);
-  }
 
   hid_t dataset_;
   Shape shape_;
@@ -192,11 +200,7 @@ Shape shape_of(hid_t dataset) {
 
 Shape chunk_of(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
-  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return {};
-  std::array<hsize_t, H5S_MAX_RANK> lengths{};
-  const int rank =
-      check(H5Pget_chunk(creation.get(), H5S_MAX_RANK, lengths.data()), "read a chunk");
-  return {lengths.begin(), lengths.begin() + rank};
+  return chunk_set_in(creation.get());
 }
 
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
@@ -230,9 +234,8 @@ void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64
   std::int64_t todo = begin;  // read with the next box
   for (std::int64_t from = begin, to = begin; chunks && from < begin + count; from = to) {
     to = std::min(begin + count, chunks->end(from));
-    if (to - from != chunks->elements() || !chunks->is_plain(from)) continue;
+    if (to - from != chunks->elements() || !chunks->read(from, at(from))) continue;
     if (todo < from) read(todo, from);
-    chunks->read(from, at(from));
     todo = to;
   }
   if (todo < begin + count) read(todo, begin + count);

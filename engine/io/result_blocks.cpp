@@ -39,6 +39,18 @@ Traces open_traces(const PointTable& table) {
   for (std::size_t k = 0; k < kNames.size(); ++k) traces.samples[k] = table.other(kNames[k]);
   traces.length = hdf5::shape_of(traces.samples[0].get());
   if (traces.length.size() != 1) throw hdf5::Error("traces have no length");
+  if (hdf5::shape_of(traces.start.get()) != table.shape() ||
+      hdf5::shape_of(traces.count.get()) != table.shape()) {
+    throw hdf5::Error("traces are not those of the points");
+  }
+  for (const hdf5::Handle& samples : traces.samples) {
+    if (hdf5::shape_of(samples.get()) != traces.length) throw hdf5::Error("traces are ragged");
+    constexpr double kMostShrunk = 1100.0;  // by gzip
+    const double bytes = kMostShrunk * static_cast<double>(H5Dget_storage_size(samples.get()));
+    if (bytes < static_cast<double>(traces.length[0]) * sizeof(float)) {
+      throw hdf5::Error("traces are shorter than they claim");
+    }
+  }
   return traces;
 }
 

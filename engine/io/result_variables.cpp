@@ -169,7 +169,9 @@ void TraceVariables::append(const sweep::Block& block) {
     const sweep::Trace& trace = block.traces.at(static_cast<std::size_t>(i));
     const bool ok = block.status[static_cast<std::size_t>(i)] == sweep::Status::ok;
     const auto length = ok ? static_cast<std::int64_t>(trace.time.size()) : 0;
-    start.append({&written, 1});
+    const bool is_here = block.status[static_cast<std::size_t>(i)] != sweep::Status::not_run;
+    const std::int64_t first = is_here ? written : 0;  // nothing, and no space, in other parts
+    start.append({&first, 1});
     count.append({&length, 1});
     if (!ok) continue;
     const std::array<const std::vector<float>*, 5> parts = {

@@ -84,8 +84,8 @@ std::int64_t chunk_end(std::span<const std::int64_t> shape, std::span<const std:
   const std::int64_t inner = element_count(shape.subspan(split + 1));
   const std::int64_t row = shape[split] * inner;
   const std::int64_t size = chunk[split] * inner;
-  const std::int64_t row_start = begin / row * row;
-  return row_start + std::min(row, ((begin - row_start) / size + 1) * size);
+  const std::int64_t in_row = begin % row;
+  return begin + std::min(row - in_row, size - in_row % size);
 }
 
 }  // namespace millstudy::io

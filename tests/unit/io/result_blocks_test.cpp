@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "core/error.h"
+#include "io/hdf5.h"
 #include "io/result_writer.h"
 #include "io/sample_results.h"
 
@@ -112,13 +114,46 @@ TEST_F(ResultBlocksTest, AreBestCutWhereTheirBordersSay) {
   EXPECT_EQ(blocks.last_border(1, 7), 7);  // none
 }
 
-TEST_F(ResultBlocksTest, TakeNoSpaceForPointsOfOtherParts) {
-  const auto size = [&](std::int64_t rows) {
-    write(sample::layout({rows, 1000}, Design::grid, false), {5000, 15000});
-    return static_cast<std::int64_t>(fs::file_size(path_));
-  };
-  const std::int64_t small = size(20);
-  EXPECT_LT(size(1000) - small, 980 * 8 + 1000);  // the coordinate
+TEST_F(ResultBlocksTest, TakeNoSpaceForResultsOfOtherParts) {
+  for (const bool traces : {false, true}) {
+    const auto size = [&](std::int64_t rows) {
+      write(sample::layout({rows, 1000}, Design::grid, traces), {5000, 15000});
+      return static_cast<std::int64_t>(fs::file_size(path_));
+    };
+    const std::int64_t small = size(20);
+    EXPECT_LT(size(1000) - small, 980 * 8 + 1000);  // the coordinate
+  }
+}
+
+/// Sets one more sample, which is not there, in a table of a file.
+void claim_one_more(const std::string& path, const char* name) {
+  const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open");
+  const hdf5::Handle dataset(H5Dopen2(file.get(), name, H5P_DEFAULT), "open");
+  const hsize_t length = static_cast<hsize_t>(hdf5::shape_of(dataset.get())[0]) + 1;
+  hdf5::check(H5Dset_extent(dataset.get(), &length), "extend");
+}
+
+TEST_F(ResultBlocksTest, RefuseTracesOfOtherLengths) {
+  const sweep::Layout layout = sample::layout({30000}, Design::grid, true);
+  for (const char* const name : {"trace_time", "trace_force_y"}) {
+    write(layout, {0, 30000});
+    claim_one_more(path_, name);
+    EXPECT_THROW(ResultBlocks{path_}, core::InputError) << name;
+  }
+}
+
+TEST_F(ResultBlocksTest, RefuseTracesThatAreNotThere) {
+  write(sample::layout({300}, Design::grid, true), {0, 300});
+  {
+    const hdf5::Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open");
+    for (const char* const name :
+         {"trace_time", "trace_angle", "trace_force_x", "trace_force_y", "trace_force_z"}) {
+      const hdf5::Handle dataset(H5Dopen2(file.get(), name, H5P_DEFAULT), "open");
+      const hsize_t length = hsize_t{1} << 62;
+      hdf5::check(H5Dset_extent(dataset.get(), &length), "extend");
+    }
+  }
+  EXPECT_THROW(ResultBlocks{path_}, core::InputError);
 }
 
 }  // namespace

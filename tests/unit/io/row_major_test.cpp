@@ -2,6 +2,7 @@
 #include "io/row_major.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 namespace millstudy::io {
@@ -69,6 +70,11 @@ TEST(RowMajorChunk, IsOneRunOfTheOrderAndNotTooLarge) {
       begin = end;
     }
   }
+}
+
+TEST(RowMajorChunk, EndsWithoutOverflow) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(chunk_end(Shape{kMost}, Shape{65536}, kMost - 10), kMost);
 }
 
 TEST(RowMajorChunk, IsToldFromOthers) {
