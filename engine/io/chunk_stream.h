@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -35,16 +37,25 @@ hid_t memory_type() {
 /// steps, status) shrink to a few percent.
 template <class T>
 bool is_repetitive(std::span<const T> values) {
-  std::vector<T> seen(values.begin(), values.begin() + std::min<std::size_t>(values.size(), 4096));
-  const auto bits = [](T value) {
+  constexpr std::size_t kFirst = 4096;
+  const auto bits = [](T value) -> std::uint64_t {
     if constexpr (std::is_same_v<T, double>) return std::bit_cast<std::uint64_t>(value);
     if constexpr (std::is_same_v<T, float>) return std::bit_cast<std::uint32_t>(value);
-    if constexpr (std::is_integral_v<T>) return value;
+    if constexpr (std::is_integral_v<T>) return static_cast<std::uint64_t>(value);
   };
-  std::sort(seen.begin(), seen.end(), [&](T a, T b) { return bits(a) < bits(b); });
-  const auto end =
-      std::unique(seen.begin(), seen.end(), [&](T a, T b) { return bits(a) == bits(b); });
-  return 2 * (end - seen.begin()) <= static_cast<std::ptrdiff_t>(seen.size());
+  // A hash table of what was seen: a slot is free while it is not of one of the values.
+  std::array<std::uint64_t, 4 * kFirst> seen;
+  std::bitset<4 * kFirst> taken;
+  std::size_t different = 0;
+  const std::span<const T> first = values.first(std::min(values.size(), kFirst));
+  for (const T value : first) {
+    std::size_t slot = bits(value) * 0x9e3779b97f4a7c15u >> 50;
+    while (taken[slot] && seen[slot] != bits(value)) slot = (slot + 1) % seen.size();
+    different += !taken[slot];
+    taken[slot] = true;
+    seen[slot] = bits(value);
+  }
+  return 2 * different <= first.size();
 }
 
 /// Fills a variable from its first element to its last in row-major order, in pieces of any size.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <iterator>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@ struct DriverFile {
   Output* output = nullptr;
   haddr_t end_allocated = 0;
   haddr_t end_written = 0;
+  std::size_t unsent = 0;  ///< bytes since the disk was last told to begin
 };
 
 constexpr haddr_t kLargestAddress = (haddr_t{1} << 63) - 1;
@@ -87,11 +89,21 @@ herr_t read(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t addre
   return 0;
 }
 
+/// Lets the disk begin with what is there: else it stands still until all waits for it at the end.
+void send(DriverFile& self, std::size_t bytes) {
+  constexpr std::size_t kAtOnce = 32 << 20;
+  self.unsent += bytes;
+  if (self.unsent < kAtOnce) return;
+  ::sync_file_range(self.output->fd, 0, 0, SYNC_FILE_RANGE_WRITE);  // only a hint
+  self.unsent = 0;
+}
+
 herr_t write(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t address,
              std::size_t size, const void* buffer) {
   DriverFile& self = mine(file);
   if (self.output->error != 0) return 0;
   const char* from = static_cast<const char*>(buffer);
+  const std::size_t all = size;
   while (size > 0) {
     const ssize_t put = ::pwrite(self.output->fd, from, size, static_cast<off_t>(address));
     if (put < 0 && errno == EINTR) continue;
@@ -101,6 +113,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t addr
     size -= static_cast<std::size_t>(put);
   }
   self.end_written = std::max(self.end_written, address);
+  send(self, all);
   return 0;
 }
 
