@@ -249,7 +249,10 @@ TraceFile read_contained(const Source& source, const std::function<TraceFile()>&
   {
     const End writing(ends[1]);
     process = fork();
-    if (process == 0) work(source, read, writing);
+    if (process == 0) {
+      ::close(ends[0]);  // or it waits for itself when nobody else reads any more
+      work(source, read, writing);
+    }
   }
   if (process < 0) {
     throw std::system_error(errno, std::generic_category(), "cannot start a process");
