@@ -28,7 +28,7 @@ class Interruption(ProgramTest):
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
-        deadline = time.monotonic() + 20.0
+        deadline = time.monotonic() + 20.0 * SLOW
         while not (self.folder / "R.h5.journal").exists():
             self.assertIsNone(process.poll(), "ended before it could be interrupted")
             self.assertLess(time.monotonic(), deadline)
