@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "io/point_table.h"
 #include "io/result_reader.h"
+#include "io/result_variables.h"
 
 namespace millstudy::io {
 namespace {
@@ -28,15 +29,15 @@ sweep::Coordinate coordinate(const PointTable& table, const PointColumn& column)
 struct Traces {
   hdf5::Handle start;
   hdf5::Handle count;
-  std::array<hdf5::Handle, 5> samples;
+  std::array<hdf5::Handle, kTraceChannels.size()> samples;
   Shape length;
 };
 
 Traces open_traces(const PointTable& table) {
   Traces traces{table.other("trace_start"), table.other("trace_count"), {}, {}};
-  constexpr std::array<const char*, 5> kNames = {"trace_time", "trace_angle", "trace_force_x",
-                                                 "trace_force_y", "trace_force_z"};
-  for (std::size_t k = 0; k < kNames.size(); ++k) traces.samples[k] = table.other(kNames[k]);
+  for (std::size_t k = 0; k < kTraceChannels.size(); ++k) {
+    traces.samples[k] = table.other(kTraceChannels[k].name);
+  }
   traces.length = hdf5::shape_of(traces.samples[0].get());
   if (traces.length.size() != 1) throw hdf5::Error("traces have no length");
   if (hdf5::shape_of(traces.start.get()) != table.shape() ||
@@ -63,9 +64,6 @@ void read_traces(const Traces& from, const Shape& shape, sweep::Block& block) {
   };
   read_table(from.start, start);
   read_table(from.count, length);
-  constexpr std::array kChannels = {&sweep::Trace::time, &sweep::Trace::angle,
-                                    &sweep::Trace::force_x, &sweep::Trace::force_y,
-                                    &sweep::Trace::force_z};
   block.traces.resize(points);
   std::vector<float> samples;
   for (std::size_t begin = 0, end = 0; begin < points; begin = end) {
@@ -78,12 +76,12 @@ void read_traces(const Traces& from, const Shape& shape, sweep::Block& block) {
     }
     samples.resize(static_cast<std::size_t>(last - start[begin]));
     if (samples.empty()) continue;
-    for (std::size_t k = 0; k < kChannels.size(); ++k) {
+    for (std::size_t k = 0; k < kTraceChannels.size(); ++k) {
       hdf5::read_range(from.samples[k].get(), H5T_NATIVE_FLOAT, from.length, start[begin],
                        last - start[begin], samples.data());
       const float* next = samples.data();
       for (std::size_t i = begin; i < end; ++i) {
-        (block.traces[i].*kChannels[k]).assign(next, next + length[i]);
+        (block.traces[i].*kTraceChannels[k].samples).assign(next, next + length[i]);
         next += length[i];
       }
     }

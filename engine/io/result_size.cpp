@@ -146,11 +146,9 @@ double write_measured(hdf5::Output& output, const sweep::Layout& layout,
     scaling.add(traces.count, points, true);
     const Extent samples = {static_cast<double>(traces.written), trace_samples,
                             padded_samples(trace_samples), static_cast<double>(kChunkElements)};
-    using sweep::Trace;
-    constexpr std::array kParts = {&Trace::time, &Trace::angle, &Trace::force_x, &Trace::force_y,
-                                   &Trace::force_z};
-    for (std::size_t k = 0; k < kParts.size(); ++k) {
-      scaling.add(traces.samples[k], samples, is_repetitive(some_samples(measured, kParts[k])));
+    for (std::size_t k = 0; k < kTraceChannels.size(); ++k) {
+      const std::vector<float> some = some_samples(measured, kTraceChannels[k].samples);
+      scaling.add(traces.samples[k], samples, is_repetitive(some));
     }
   }
   return scaling.growth();

@@ -140,21 +140,14 @@ TraceVariables create_traces(hid_t file, Builder& builder) {
       {},
       create_bare_scale(file, "sample")};
   hdf5::write_attribute(traces.count.dataset(), "sample_dimension", std::string("sample"));
-  const std::array<std::pair<const char*, Description>, 5> kSamples = {{
-      {"trace_time", {"s", "time"}},
-      {"trace_angle", {"rad", "spindle angle"}},
-      {"trace_force_x", {"N", "force on the tool along x"}},
-      {"trace_force_y", {"N", "force on the tool along y"}},
-      {"trace_force_z", {"N", "force on the tool along z"}},
-  }};
-  for (const auto& [name, description] : kSamples) {
-    Handle dataset = hdf5::create_dataset(file, name, H5T_IEEE_F32LE, {0},
+  for (const TraceChannel& channel : kTraceChannels) {
+    Handle dataset = hdf5::create_dataset(file, channel.name, H5T_IEEE_F32LE, {0},
                                           {.chunk = {kChunkElements},
                                            .unlimited = true,
                                            .gzip = kGzip,
                                            .fill = kMissing,
                                            .fill_is_missing = true});
-    describe(dataset.get(), description);
+    describe(dataset.get(), {channel.units, channel.long_name});
     hdf5::attach_scale(dataset.get(), traces.sample_scale.get(), 0);
     traces.samples.emplace_back(std::move(dataset), Shape{0}, Shape{kChunkElements},
                                 static_cast<float>(kMissing));
@@ -174,11 +167,10 @@ void TraceVariables::append(const sweep::Block& block) {
     start.append({&first, 1});
     count.append({&length, 1});
     if (!ok) continue;
-    const std::array<const std::vector<float>*, 5> parts = {
-        &trace.time, &trace.angle, &trace.force_x, &trace.force_y, &trace.force_z};
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if (parts[k]->size() != trace.time.size()) throw std::logic_error("a trace is ragged");
-      samples[k].append(*parts[k]);
+    for (std::size_t k = 0; k < kTraceChannels.size(); ++k) {
+      const std::vector<float>& channel = trace.*kTraceChannels[k].samples;
+      if (channel.size() != trace.time.size()) throw std::logic_error("a trace is ragged");
+      samples[k].append(channel);
     }
     written += length;
   }

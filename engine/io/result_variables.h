@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "io/chunk_stream.h"
@@ -12,11 +13,26 @@ namespace millstudy::io {
 /// Values in a chunk of a variable, at most.
 inline constexpr std::int64_t kChunkElements = 1 << 16;
 
+/// The variables of the samples of time histories.
+struct TraceChannel {
+  const char* name;
+  const char* units;
+  const char* long_name;
+  std::vector<float> sweep::Trace::*samples;
+};
+inline constexpr std::array<TraceChannel, 5> kTraceChannels = {{
+    {"trace_time", "s", "time", &sweep::Trace::time},
+    {"trace_angle", "rad", "spindle angle", &sweep::Trace::angle},
+    {"trace_force_x", "N", "force on the tool along x", &sweep::Trace::force_x},
+    {"trace_force_y", "N", "force on the tool along y", &sweep::Trace::force_y},
+    {"trace_force_z", "N", "force on the tool along z", &sweep::Trace::force_z},
+}};
+
 /// Time histories of all points, one after another: CF contiguous ragged arrays.
 struct TraceVariables {
   ChunkStream<std::int64_t> start;
   ChunkStream<std::int64_t> count;
-  std::vector<ChunkStream<float>> samples;  ///< time, angle, force_x, force_y, force_z
+  std::vector<ChunkStream<float>> samples;  ///< of kTraceChannels
   hdf5::Handle sample_scale;
   std::int64_t written = 0;  ///< samples
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "io/hdf5.h"
+#include "io/result_variables.h"
 #include "io/result_writer.h"
 #include "io/sample_results.h"
 
@@ -72,9 +73,11 @@ void expect_same(const sweep::Block& block, const sweep::Block& other) {
         std::memcmp(block.values.data(), other.values.data(), block.values.size() * sizeof(double)),
         0);
   }
+  ASSERT_EQ(block.traces.size(), block.values.empty() ? 0 : other.traces.size());
   for (std::size_t i = 0; i < block.traces.size(); ++i) {
-    ASSERT_EQ(block.traces[i].time, other.traces[i].time);
-    ASSERT_EQ(block.traces[i].force_z, other.traces[i].force_z);
+    for (const TraceChannel& channel : kTraceChannels) {
+      ASSERT_EQ(block.traces[i].*channel.samples, other.traces[i].*channel.samples);
+    }
   }
 }
 
@@ -146,9 +149,8 @@ TEST_F(ResultBlocksTest, RefuseTracesThatAreNotThere) {
   write(sample::layout({300}, Design::grid, true), {0, 300});
   {
     const hdf5::Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open");
-    for (const char* const name :
-         {"trace_time", "trace_angle", "trace_force_x", "trace_force_y", "trace_force_z"}) {
-      const hdf5::Handle dataset(H5Dopen2(file.get(), name, H5P_DEFAULT), "open");
+    for (const TraceChannel& channel : kTraceChannels) {
+      const hdf5::Handle dataset(H5Dopen2(file.get(), channel.name, H5P_DEFAULT), "open");
       const hsize_t length = hsize_t{1} << 62;
       hdf5::check(H5Dset_extent(dataset.get(), &length), "extend");
     }

@@ -2,6 +2,9 @@
 #include <csignal>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "identify/error_text.h"
 #include "identify/prepare_trace.h"
@@ -214,6 +217,28 @@ TEST(ReadContained, HandsOverEverything) {
   EXPECT_EQ(read.channels.sampling_rate, 10.0);
   EXPECT_EQ(read.channels.start, 2.0);
   EXPECT_EQ(read.channels.remarks, file.channels.remarks);
+}
+
+/// The process that reads holds a pipe of ours, too, which closes when it ends.
+TEST(ReadContained, EndsWhenNobodyListensAnyMore) {
+  int ends[2] = {};
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t listener = ::fork();
+  if (listener == 0) {
+    const pid_t self = ::getpid();
+    read_contained({"a", "b"}, [&] {
+      ::kill(self, SIGKILL);
+      TraceFile file{"format", {}};
+      file.channels.channels = {{"Fx", "N", ramp(1000000)}};  // more than a pipe holds
+      return file;
+    });
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  ASSERT_EQ(::waitpid(listener, nullptr, 0), listener);
+  pollfd end = {ends[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&end, 1, 10000), 1);
+  ::close(ends[0]);
 }
 
 }  // namespace
