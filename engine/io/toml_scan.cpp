@@ -28,6 +28,9 @@ std::size_t skip_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
+/// What a text in quotes follows, spaces apart.
+constexpr std::string_view kBeforeText = "\n\r=[{,.";
+
 bool is_key_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == ' ' ||
          c == '\t' || c == '+';
@@ -65,13 +68,17 @@ std::string about_character(std::string_view text) {
 std::optional<Stumble> find_stumble(std::string_view toml, int most_key_parts) {
   int line = 1;
   int parts = 1;
+  char last = '\n';  // of the characters before this one that are no space
   for (std::size_t i = toml.starts_with("\xef\xbb\xbf") ? 3 : 0; i < toml.size();) {
     const char c = toml[i];
-    if (c == '"' || c == '\'') {
+    const bool is_quote = c == '"' || c == '\'';
+    // Elsewhere a quote belongs to what stands before it, and the parser reads on through it.
+    if (is_quote && kBeforeText.find(last) != std::string_view::npos) {
       const std::size_t end = std::min(skip_string(toml, i), toml.size());
       line += static_cast<int>(std::count(toml.begin() + static_cast<std::ptrdiff_t>(i),
                                           toml.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
       i = end;
+      last = c;
       continue;
     }
     if (c == '#') {
@@ -87,6 +94,7 @@ std::optional<Stumble> find_stumble(std::string_view toml, int most_key_parts) {
       parts = 1;
     }
     if (c == '\n') ++line;
+    if (c != ' ' && c != '\t') last = c;
     ++i;
   }
   return std::nullopt;

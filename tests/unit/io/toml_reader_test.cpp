@@ -150,15 +150,21 @@ TEST(Toml, TakesDotsThatAreNotOfKeys) {
 }
 
 TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
-  for (const std::string text : {"[öl]\n", "[a.ö]\n", "öl = 1\n", "a = ö\n", "a = [1,\u00a02]\n",
-                                 "a = 1 ö\n", "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n",
-                                 "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n", "a = 1\ufeff\n"}) {
+  for (const std::string text :
+       {"[öl]\n", "[a.ö]\n", "öl = 1\n", "a = ö\n", "a = [1,\u00a02]\n", "a = 1 ö\n",
+        "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n", "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n",
+        "a = 1\ufeff\n",
+        // The parser reads these quotes as a part of what is before them.
+        "a = -'\ufef7'\n", "a = 1\"\u2003\"\n", "a = 1979-05-27 '\ufef7'\n", "a = it's ö'\n"}) {
     EXPECT_EQ(refusal("\n" + text).substr(0, 7), "s.toml:") << text;
   }
   EXPECT_EQ(refusal("\n\n[öl]\n"),
             "s.toml:3: ö cannot stand there: names of keys are letters a to z, digits, _ and -; "
             "texts go in \"quotes\"");
   EXPECT_EQ(refusal("a = 'ö' # ö\n# ö\n\"ö\" = \'\'\'\nö\'\'\'\nb = \"\"\"ö\"\"\"\n"), "accepted");
+  EXPECT_EQ(refusal("'ö'.\t'é' = ['ö' ,'é', # ö\n'ö']\r\nb = {'ö' = \"ö\", 'é'='ö'}\n'é' = 1\n"
+                    "['ü']\n[ 'ß' . 'ü']\n[[ 'ä' ]]\n"),
+            "accepted");
 }
 
 TEST(Toml, RefusesWhatIsNoReadableFile) {
