@@ -155,7 +155,9 @@ TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
         "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n", "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n",
         "a = 1\ufeff\n",
         // The parser reads these quotes as a part of what is before them.
-        "a = -'\ufef7'\n", "a = 1\"\u2003\"\n", "a = 1979-05-27 '\ufef7'\n", "a = it's ö'\n"}) {
+        "a = -'\ufef7'\n", "a = 1\"\u2003\"\n", "a = 1979-05-27 '\ufef7'\n", "a = it's ö'\n",
+        "a = [1.0, 1.'\u03e2']\n", "a = 1['\ufef7'\n", "a = 1={'ﻷ'\n", "a = {b = 1.'\ufef7'}\n",
+        "a = [[1], 2['\ufef7']]\n", "a = ['b'['\ufef7']]\n", "a = [\n1.'\ufef7']\n"}) {
     EXPECT_EQ(refusal("\n" + text).substr(0, 7), "s.toml:") << text;
   }
   EXPECT_EQ(refusal("\n\n[öl]\n"),
@@ -163,6 +165,8 @@ TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
             "texts go in \"quotes\"");
   EXPECT_EQ(refusal("a = 'ö' # ö\n# ö\n\"ö\" = \'\'\'\nö\'\'\'\nb = \"\"\"ö\"\"\"\n"), "accepted");
   EXPECT_EQ(refusal("'ö'.\t'é' = ['ö' ,'é', # ö\n'ö']\r\nb = {'ö' = \"ö\", 'é'='ö'}\n'é' = 1\n"
+                    "c = [\n'ö',\n[ \"ö\", {'ö' = 'ö', b.'ö' = ['ö']}, 'ö' ], 'ö'\n, 'ö'\n]\n"
+                    "d = ''\ne = \"\"\nf.'ö'.g = 1.5\nh = 'ö'\n"
                     "['ü']\n[ 'ß' . 'ü']\n[[ 'ä' ]]\n"),
             "accepted");
 }
