@@ -8,7 +8,7 @@ packages=(
   libbenchmark-dev libceres-dev libcli11-dev libeigen3-dev libfmt-dev libgtest-dev libhdf5-dev libmatio-dev
   libopenmpi-dev libssl-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev openmpi-bin
   python3 python3-h5netcdf python3-h5py python3-matplotlib python3-netcdf4 python3-scipy python3-xarray
-  netcdf-bin octave
+  netcdf-bin octave zlib1g-dev
 )
 
 missing=()

@@ -1,45 +1,27 @@
 // SPDX-License-Identifier: MIT
 // The verb merge: results of the parts of one study become the result of all of it.
 #include <algorithm>
+#include <array>
 #include <fmt/core.h>
+#include <future>
+#include <optional>
 #include <set>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "core/file_at.h"
 #include "io/result_blocks.h"
+#include "io/result_reader.h"
 #include "io/result_writer.h"
-#include "sweep/attributes.h"
 #include "sweep/copy_point.h"
 
 namespace millstudy::cli {
 namespace {
 
-/// Points in memory.
+/// Points of a block, of which two are in memory.
 std::int64_t at_once(const sweep::Layout& layout) {
   return layout.traces ? 256 : 1 << 16;
-}
-
-/// @throws core::InputError if a part is not of the same study by the same program as the first
-void check_same(const io::ResultBlocks& first, const io::ResultBlocks& other) {
-  const auto refuse = [&](const std::string& why) {
-    throw core::InputError({other.path(), 0}, why);
-  };
-  const sweep::Layout &a = first.layout(), &b = other.layout();
-  if (sweep::text_attribute(a, "study_hash") != sweep::text_attribute(b, "study_hash")) {
-    refuse(fmt::format("is the result of another study than {}", first.path()));
-  }
-  for (const char* const name : {"isa", "millstudy_version", "git_revision"}) {
-    if (sweep::text_attribute(a, name) == sweep::text_attribute(b, name)) continue;
-    refuse(fmt::format("was computed with {} = {}, {} with {}: digits may differ", name,
-                       sweep::text_attribute(b, name), first.path(),
-                       sweep::text_attribute(a, name)));
-  }
-  const bool alike = a.shape == b.shape && a.columns.size() == b.columns.size() &&
-                     a.traces == b.traces &&
-                     std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(),
-                                [](const auto& x, const auto& y) { return x.name == y.name; });
-  if (!alike) refuse(fmt::format("has other variables than {}", first.path()));
 }
 
 /// Ranges of points for messages: "0 to 99, 300 to 399".
@@ -76,22 +58,51 @@ struct Counts {
   std::int64_t ok = 0, failed = 0, skipped = 0;
 };
 
-/// A part of a study, and the points first .. end - 1 that it is of.
-struct Part {
-  explicit Part(const std::string& file) : result(file) {
-    const sweep::Layout& layout = result.layout();
-    const std::int64_t points = layout.points();
-    first = std::clamp<std::int64_t>(
-        sweep::attribute<std::int64_t>(layout, "shard_first_point").value_or(0), 0, points);
-    end = first + std::clamp<std::int64_t>(
-                      sweep::attribute<std::int64_t>(layout, "shard_points").value_or(points), 0,
-                      points - first);
+/// A part of a study: what its file says of itself, and the points first .. end - 1 that it is of.
+class Part {
+ public:
+  Part(std::string file, std::int64_t points) : path(std::move(file)) {
+    const std::optional<io::ResultSummary> found = io::read_result_summary(path);
+    if (!found) throw core::InputError({path, 0}, "is no file that can be read");
+    summary = *found;
+    if (text("study_hash").empty()) throw core::InputError({path, 0}, "is no result of a study");
+    first = std::clamp<std::int64_t>(summary.integer("shard_first_point").value_or(0), 0, points);
+    end = first + std::clamp<std::int64_t>(summary.integer("shard_points").value_or(points), 0,
+                                           points - first);
   }
 
-  io::ResultBlocks result;
-  std::int64_t first;
-  std::int64_t end;
+  std::string text(const char* name) const { return summary.text(name).value_or(""); }
+
+  std::string path;
+  io::ResultSummary summary;
+  std::int64_t first = 0;
+  std::int64_t end = 0;
+  std::optional<io::ResultBlocks> result;  ///< while its points are read
 };
+
+/// @throws core::InputError if a part is not of the same study by the same program as the first
+void check_same(const Part& first, const Part& other) {
+  if (first.text("study_hash") != other.text("study_hash")) {
+    throw core::InputError({other.path, 0},
+                           fmt::format("is the result of another study than {}", first.path));
+  }
+  for (const char* const name : {"isa", "millstudy_version", "git_revision"}) {
+    if (first.text(name) == other.text(name)) continue;
+    throw core::InputError({other.path, 0},
+                           fmt::format("was computed with {} = {}, {} with {}: digits may differ",
+                                       name, other.text(name), first.path, first.text(name)));
+  }
+}
+
+/// @throws core::InputError if a part has not the points and variables of all
+void check_alike(const sweep::Layout& all, const io::ResultBlocks& part) {
+  const sweep::Layout& own = part.layout();
+  const bool alike = all.shape == own.shape && all.columns.size() == own.columns.size() &&
+                     all.traces == own.traces &&
+                     std::equal(all.columns.begin(), all.columns.end(), own.columns.begin(),
+                                [](const auto& x, const auto& y) { return x.name == y.name; });
+  if (!alike) throw core::InputError({part.path(), 0}, "has other variables than the other parts");
+}
 
 /// Where the points from `first` on are those of other parts: a part is read in few pieces, for
 /// each piece costs the unpacking of all chunks that it touches.
@@ -105,65 +116,102 @@ std::int64_t next_border(const std::vector<Part>& parts, std::int64_t first, std
   return border;
 }
 
-/// The points of all parts; who has a point that another has too is told.
+/// The points of all parts, in order; who has a point that another has too is told.
 class Joined {
  public:
-  explicit Joined(const std::vector<Part>& parts) : parts_(parts) {}
+  /// @param parts  in the order of their first points
+  Joined(std::vector<Part>& parts, const sweep::Layout& layout) : parts_(parts), layout_(layout) {}
 
-  /// Points from `first` on: as many as are in the same parts, at most so many.
-  const sweep::Block& read(std::int64_t first, std::int64_t most) {
-    const sweep::Layout& layout = parts_[0].result.layout();
-    const std::int64_t border = next_border(parts_, first, layout.points());
-    std::int64_t end = std::min(first + most, border);
-    std::vector<const Part*> here;
-    for (const Part& part : parts_) {
-      if (part.first <= first && first < part.end) here.push_back(&part);
+  /// The next points: as many as are in the same parts, within limits of memory. A part is open
+  /// while it has such.
+  void read(sweep::Block& block) {
+    const std::int64_t first = next_;
+    const std::int64_t border = next_border(parts_, first, layout_.points());
+    std::int64_t end = std::min(first + at_once(layout_), border);
+    std::vector<const io::ResultBlocks*> here;
+    for (Part& part : parts_) {
+      if (part.end <= first) part.result.reset();
+      if (part.first <= first && first < part.end) here.push_back(&open(part));
     }
-    if (end < border && !here.empty()) end = here[0]->result.last_border(first, end);
+    if (end < border && !here.empty()) end = here[0]->last_border(first, end);
+    expect_those_after(end);
     const std::int64_t count = end - first;
-    if (here.size() == 1) here[0]->result.read(first, count, block_);  // mostly
-    if (here.size() != 1 || block_.values.empty()) {
-      block_ = sweep::Block(first, count, layout.columns.size(), layout.traces);
-      for (const Part* part : here) add(part->result.read(first, count));
+    if (here.size() == 1) here[0]->read(first, count, block);  // mostly
+    if (here.size() != 1 || block.values.empty()) {
+      block = sweep::Block(first, count, layout_.columns.size(), layout_.traces);
+      for (const io::ResultBlocks* part : here) add(part->read(first, count), block);
     }
-    count_statuses();
-    return block_;
+    count_statuses(block);
+    next_ = end;
   }
   const Ranges& twice() const { return twice_; }
   const Ranges& missing() const { return missing_; }
   const Counts& counts() const { return counts_; }
 
  private:
+  const io::ResultBlocks& open(Part& part) const {
+    if (!part.result) check_alike(layout_, part.result.emplace(part.path));
+    return *part.result;
+  }
+
   /// Points that were run, and that the block does not have yet.
-  void add(sweep::Block own) {
+  void add(sweep::Block own, sweep::Block& block) {
     for (std::int64_t i = 0; i < own.count; ++i) {
       if (own.status[i] == sweep::Status::not_run) continue;
-      if (block_.status[i] != sweep::Status::not_run) {
+      if (block.status[i] != sweep::Status::not_run) {
         twice_.add(own.first + i);
         continue;
       }
-      sweep::copy_point(own, i, block_, i);
+      sweep::copy_point(own, i, block, i);
     }
   }
 
-  void count_statuses() {
-    for (std::int64_t i = 0; i < block_.count; ++i) {
-      if (block_.status[i] == sweep::Status::not_run) missing_.add(block_.first + i);
-      counts_.ok += block_.status[i] == sweep::Status::ok;
-      counts_.failed += block_.status[i] == sweep::Status::failed;
-      counts_.skipped += block_.status[i] == sweep::Status::skipped;
+  /// The disk reads the next few parts while this one is unpacked.
+  void expect_those_after(std::int64_t end) {
+    constexpr std::size_t kAhead = 3;
+    constexpr std::uint64_t kMost = 64 << 20;  // of larger ones, what follows comes in time
+    while (expected_ < parts_.size() &&
+           (expected_ < kAhead || parts_[expected_ - kAhead].first < end)) {
+      core::expect_file(parts_[expected_++].path, kMost);
     }
   }
 
-  const std::vector<Part>& parts_;
-  sweep::Block block_{0, 0, 0, false};
+  void count_statuses(const sweep::Block& block) {
+    for (std::int64_t i = 0; i < block.count; ++i) {
+      if (block.status[i] == sweep::Status::not_run) missing_.add(block.first + i);
+      counts_.ok += block.status[i] == sweep::Status::ok;
+      counts_.failed += block.status[i] == sweep::Status::failed;
+      counts_.skipped += block.status[i] == sweep::Status::skipped;
+    }
+  }
+
+  std::vector<Part>& parts_;
+  const sweep::Layout& layout_;
+  std::int64_t next_ = 0;
+  std::size_t expected_ = 0;
   Ranges twice_, missing_;
   Counts counts_;
 };
 
-/// Wall time and shard are those of parts.
-sweep::Layout layout_of_all(const std::vector<Part>& parts) {
-  sweep::Layout layout = parts[0].result.layout();
+/// The next points are read and unpacked while those before them are packed and written.
+void write_all(Joined& joined, std::int64_t points, sweep::Sink& writer) {
+  std::array<sweep::Block, 2> blocks = {sweep::Block(0, 0, 0, false), sweep::Block(0, 0, 0, false)};
+  const auto how = io::can_read_while_writing() ? std::launch::async : std::launch::deferred;
+  const auto read = [&](sweep::Block& block) {
+    return std::async(how, [&] { joined.read(block); });
+  };
+  std::int64_t next = 0;
+  std::future<void> reading = read(blocks[0]);
+  for (std::size_t turn = 0; next < points; turn = 1 - turn) {
+    reading.get();
+    next += blocks[turn].count;
+    if (next < points) reading = read(blocks[1 - turn]);
+    writer.write(blocks[turn]);
+  }
+}
+
+/// That of a part without what is said of parts alone.
+sweep::Layout layout_of_all(sweep::Layout layout) {
   const std::set<std::string> own = {"shard",          "shard_first_point", "shard_points",
                                      "points_ok",      "points_failed",     "points_skipped",
                                      "points_not_run", "wall_time_s"};
@@ -174,33 +222,27 @@ sweep::Layout layout_of_all(const std::vector<Part>& parts) {
 
 double wall_time(const std::vector<Part>& parts) {
   double sum = 0.0;
-  for (const Part& part : parts) {
-    sum += sweep::attribute<double>(part.result.layout(), "wall_time_s").value_or(0.0);
-  }
+  for (const Part& part : parts) sum += part.summary.real("wall_time_s").value_or(0.0);
   return sum;
 }
 
 }  // namespace
 
 int merge(const std::string& output, const std::vector<std::string>& files) {
+  constexpr std::uint64_t kBeginning = 1 << 20;  // names, units and where all the rest is
+  for (const std::string& file : files) core::expect_file(file, kBeginning);
+  const sweep::Layout layout = layout_of_all(io::ResultBlocks(files[0]).layout());
   std::vector<Part> parts;
   for (const std::string& file : files) {
     if (file == output) throw core::InputError({file, 0}, "is the output of the merge itself");
-    parts.emplace_back(file);
-    check_same(parts.front().result, parts.back().result);
+    parts.emplace_back(file, layout.points());
+    check_same(parts.front(), parts.back());
   }
-  const sweep::Layout layout = layout_of_all(parts);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.first < b.first; });
   const auto writer = io::make_result_writer(output, layout);
-  Joined joined(parts);
-  const std::int64_t step = at_once(layout);
-  for (std::int64_t next = 0; next < layout.points();) {
-    const sweep::Block& block = joined.read(next, step);
-    writer->write(block);
-    next += block.count;
-    for (Part& part : parts) {
-      if (part.end <= next) part.result.close();
-    }
-  }
+  Joined joined(parts, layout);
+  write_all(joined, layout.points(), *writer);
   std::vector<core::Fault> faults;
   const auto check = [&](const Ranges& points, const char* what) {
     if (points.empty()) return;

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,23 +19,20 @@ namespace millstudy::io {
 
 static_assert(std::endian::native == std::endian::little, "chunks are stored as they are");
 
-/// The library's name of a C++ type in memory.
+/// True if two values are the same bit for bit.
 template <class T>
-hid_t memory_type() {
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
-  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// True if at most half of the first values are different ones: then gzip pays.
+/// True if at most half of the first values are different ones, but for the fill value: then gzip
+/// pays.
 ///
 /// Measured on 22 columns of float64 that are all different: gzip 1 writes 35 MB/s and saves 29 %,
 /// storing them as they are 270 MB/s. Columns that do not depend on the inner axes (feed per tooth,
 /// steps, status) shrink to a few percent.
 template <class T>
-bool is_repetitive(std::span<const T> values) {
+bool is_repetitive(std::span<const T> values, T fill) {
   constexpr std::size_t kFirst = 4096;
   const auto bits = [](T value) -> std::uint64_t {
     if constexpr (std::is_same_v<T, double>) return std::bit_cast<std::uint64_t>(value);
@@ -46,16 +42,17 @@ bool is_repetitive(std::span<const T> values) {
   // A hash table of what was seen: a slot is free while it is not of one of the values.
   std::array<std::uint64_t, 4 * kFirst> seen;
   std::bitset<4 * kFirst> taken;
-  std::size_t different = 0;
-  const std::span<const T> first = values.first(std::min(values.size(), kFirst));
-  for (const T value : first) {
+  std::size_t different = 0, all = 0;
+  for (const T value : values) {
+    if (same_bits(value, fill)) continue;
+    if (++all > kFirst) break;
     std::size_t slot = bits(value) * 0x9e3779b97f4a7c15u >> 50;
     while (taken[slot] && seen[slot] != bits(value)) slot = (slot + 1) % seen.size();
     different += !taken[slot];
     taken[slot] = true;
     seen[slot] = bits(value);
   }
-  return 2 * different <= first.size();
+  return 2 * different <= std::min(all, kFirst);
 }
 
 /// Fills a variable from its first element to its last in row-major order, in pieces of any size.
@@ -89,7 +86,9 @@ class ChunkStream {
   void flush() {
     if (held_.empty()) return;
     const auto count = static_cast<std::int64_t>(held_.size());
-    if (!unlimited_ && !shape_.empty() && is_empty()) {
+    const bool takes_all = unlimited_ || shape_.empty();  // is never without points
+    const std::int64_t filled = takes_all ? count : written();
+    if (filled == 0) {
       next_ += count;
       held_.clear();
       return;
@@ -99,9 +98,9 @@ class ChunkStream {
       hdf5::extend(dataset_.get(), shape_[0]);
     }
     const std::int64_t whole = element_count(chunk_);
-    const bool mostly_empty = 2 * count < whole;  // the end of an unlimited variable
-    if (shape_.empty() || mostly_empty || is_repetitive(std::span<const T>(held_))) {
-      hdf5::write_range(dataset_.get(), memory_type<T>(), shape_, next_, count, held_.data());
+    const bool mostly_empty = 2 * filled < (unlimited_ ? whole : count);
+    if (shape_.empty() || mostly_empty || is_repetitive(std::span<const T>(held_), fill_)) {
+      hdf5::write_range(dataset_.get(), hdf5::memory_type<T>(), shape_, next_, count, held_.data());
     } else {
       // A chunk is short only at its end: all dimensions after the split one are whole in it.
       held_.resize(static_cast<std::size_t>(whole));
@@ -112,19 +111,21 @@ class ChunkStream {
     held_.clear();
   }
 
+  T fill() const { return fill_; }
   hid_t dataset() const { return dataset_.get(); }
 
  private:
-  /// Nothing but the fill value, bit for bit.
-  bool is_empty() const {
-    return std::all_of(held_.begin(), held_.end(),
-                       [&](const T& value) { return std::memcmp(&value, &fill_, sizeof(T)) == 0; });
+  /// How many of the values held back are not the fill value, which stands for points of other
+  /// parts and those without a result.
+  std::int64_t written() const {
+    return std::count_if(held_.begin(), held_.end(),
+                         [&](const T& value) { return !same_bits(value, fill_); });
   }
 
   /// Where the chunk being filled ends.
   std::int64_t end() const {
     if (unlimited_) return (next_ / chunk_[0] + 1) * chunk_[0];
-    return chunk_end(shape_, chunk_, next_);
+    return chunk_around(shape_, chunk_, next_).end;
   }
 
   hdf5::Handle dataset_;

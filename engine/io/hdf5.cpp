@@ -5,10 +5,10 @@
 #include <array>
 #include <hdf5_hl.h>
 
+#include "io/chunk_reader.h"
+
 namespace millstudy::io::hdf5 {
 namespace {
-
-constexpr std::uint32_t kAllFilters = ~std::uint32_t{0};
 
 std::vector<hsize_t> sizes(std::span<const std::int64_t> shape) {
   return {shape.begin(), shape.end()};
@@ -73,54 +73,6 @@ Shape chunk_set_in(hid_t creation) {
   const int rank = check(H5Pget_chunk(creation, H5S_MAX_RANK, lengths.data()), "read a chunk");
   return {lengths.begin(), lengths.begin() + rank};
 }
-
-/// The chunks of a variable, each one run of the row-major order, that are stored as they are in
-/// memory: the library would copy them through its cache, box by box.
-class PlainChunks {
- public:
-  /// @return nothing where the variable has no such chunks
-  static std::optional<PlainChunks> of(hid_t dataset, hid_t memory_type, const Shape& shape) {
-    const H5T_class_t kind = H5Tget_class(memory_type);  // texts hold addresses
-    if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || shape.empty()) return {};
-    const Handle type(H5Dget_type(dataset), "read a type");
-    if (check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
-    if (shape_of(dataset) != shape) return {};
-    const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
-    if (H5Pget_nfilters(creation.get()) < 1) return {};  // nothing to go past
-    Shape chunk = chunk_set_in(creation.get());
-    if (chunk.empty() || !is_row_major(shape, chunk)) return {};
-    return PlainChunks(dataset, shape, std::move(chunk), H5Tget_size(memory_type));
-  }
-
-  std::int64_t elements() const { return element_count(chunk_); }
-  /// Where the chunk that holds an element ends.
-  std::int64_t end(std::int64_t element) const { return chunk_end(shape_, chunk_, element); }
-
-  /// The chunk that begins at an element. False if it went through filters or is not there: `to`
-  /// may then hold anything.
-  bool read(std::int64_t element, void* to) const {
-    const std::vector<hsize_t> start =
-        sizes(row_major_boxes(shape_, element, element + 1)[0].start);
-    // Both look for the chunk in the same way, so that it has the size that there is room for.
-    hsize_t bytes = 0;
-    if (H5Dget_chunk_storage_size(dataset_, start.data(), &bytes) < 0 ||
-        bytes != static_cast<hsize_t>(elements()) * size_) {
-      return false;
-    }
-    std::uint32_t skipped = 0;
-    check(H5Dread_chunk(dataset_, H5P_DEFAULT, start.data(), &skipped, to), "read a variable");
-    return skipped == kAllFilters;
-  }
-
- private:
-  PlainChunks(hid_t dataset, Shape shape, Shape chunk, std::size_t size)
-      : dataset_(dataset), shape_(std::move(shape)), chunk_(std::move(chunk)), size_(size) {}
-
-  hid_t dataset_;
-  Shape shape_;
-  Shape chunk_;
-  std::size_t size_;
-};
 
 }  // namespace
 
@@ -230,11 +182,23 @@ void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64
             "read a variable");
     });
   };
-  const std::optional<PlainChunks> chunks = PlainChunks::of(dataset, memory_type, shape);
+  const std::optional<ChunkReader> chunks = ChunkReader::of(dataset, memory_type, shape);
+  std::vector<char> other;
+  const auto read_chunk = [&](std::int64_t from, std::int64_t to, std::int64_t chunk_begin) {
+    const std::int64_t whole = chunks->elements();
+    if (to - from == whole) return chunks->read(chunk_begin, at(from));
+    if (2 * (to - from) < whole) return false;  // the library's cache helps who reads bit by bit
+    other.resize(static_cast<std::size_t>(whole) * size);
+    if (!chunks->read(chunk_begin, other.data())) return false;
+    std::copy_n(other.data() + static_cast<std::size_t>(from - chunk_begin) * size,
+                static_cast<std::size_t>(to - from) * size, at(from));
+    return true;
+  };
   std::int64_t todo = begin;  // read with the next box
   for (std::int64_t from = begin, to = begin; chunks && from < begin + count; from = to) {
-    to = std::min(begin + count, chunks->end(from));
-    if (to - from != chunks->elements() || !chunks->read(from, at(from))) continue;
+    const Run chunk = chunks->around(from);
+    to = std::min(begin + count, chunk.end);
+    if (!read_chunk(from, to, chunk.begin)) continue;
     if (todo < from) read(todo, from);
     todo = to;
   }

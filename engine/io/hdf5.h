@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,12 @@
 
 /// A thin layer over the HDF5 1.10 C API: identifiers that close themselves, errors that throw.
 ///
-/// Use from one thread at a time (Debian's library is not built for more).
+/// Debian's library takes calls of several threads one at a time, but for those about scales
+/// (H5DS).
 namespace millstudy::io::hdf5 {
+
+/// The mask of a chunk that went past all filters.
+constexpr std::uint32_t kAllFilters = ~std::uint32_t{0};
 
 /// What the library said, innermost cause first.
 class Error : public std::runtime_error {
@@ -56,6 +61,16 @@ class Handle {
  private:
   hid_t id_ = H5I_INVALID_HID;
 };
+
+/// The library's name of a C++ type in memory.
+template <class T>
+hid_t memory_type() {
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+}
 
 /// Throws Error with the library's own text if the result of a call is negative.
 template <class Result>

@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <iterator>
+#include <memory>
+#include <new>
+#include <optional>
+#include <system_error>
 #include <unistd.h>
+
+#include "io/write_behind.h"
 
 namespace millstudy::io::hdf5 {
 namespace {
@@ -17,7 +22,7 @@ struct DriverFile {
   Output* output = nullptr;
   haddr_t end_allocated = 0;
   haddr_t end_written = 0;
-  std::size_t unsent = 0;  ///< bytes since the disk was last told to begin
+  std::optional<WriteBehind> behind;
 };
 
 constexpr haddr_t kLargestAddress = (haddr_t{1} << 63) - 1;
@@ -29,25 +34,41 @@ const DriverFile& mine(const H5FD_t* file) {
   return *reinterpret_cast<const DriverFile*>(file);
 }
 
-herr_t failed(Output& output, hid_t minor) {
-  output.error = errno;
+herr_t failed(Output& output, int error, hid_t minor) {
+  output.error = error;
   H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, minor, "%s",
-           std::strerror(output.error));
+           std::strerror(error));
   return -1;
 }
 
 H5FD_t* open(const char* /*name*/, unsigned flags, hid_t access, haddr_t /*largest*/) {
   Output* output = *static_cast<Output* const*>(H5Pget_driver_info(access));
   if ((flags & H5F_ACC_TRUNC) != 0 && ::ftruncate(output->fd, 0) != 0) {
-    failed(*output, H5E_CANTOPENFILE);
+    failed(*output, errno, H5E_CANTOPENFILE);
     return nullptr;
   }
-  auto* file = new DriverFile;
+  auto file = std::make_unique<DriverFile>();
   file->output = output;
-  return &file->common;
+  try {
+    file->behind.emplace(output->fd);
+  } catch (const std::system_error& no_thread) {
+    failed(*output, no_thread.code().value(), H5E_CANTOPENFILE);
+    return nullptr;
+  } catch (const std::bad_alloc&) {  // nothing may be thrown through the library
+    failed(*output, ENOMEM, H5E_CANTOPENFILE);
+    return nullptr;
+  }
+  return &file.release()->common;
+}
+
+/// Waits for all that was to be written.
+void settle(DriverFile& self) {
+  const int error = self.behind->wait();
+  if (self.output->error == 0) self.output->error = error;
 }
 
 herr_t close(H5FD_t* file) {
+  settle(mine(file));
   delete &mine(file);
   return 0;
 }
@@ -71,15 +92,16 @@ haddr_t written(const H5FD_t* file, H5FD_mem_t /*type*/) {
   return mine(file).end_written;
 }
 
-/// Calls pread or pwrite until all is done; what lies beyond the end of the file reads as zero.
+/// What lies beyond the end of the file reads as zero.
 herr_t read(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t address,
             std::size_t size, void* buffer) {
-  Output& output = *mine(file).output;
+  DriverFile& self = mine(file);
+  settle(self);
   char* to = static_cast<char*>(buffer);
   while (size > 0) {
-    const ssize_t got = ::pread(output.fd, to, size, static_cast<off_t>(address));
+    const ssize_t got = ::pread(self.output->fd, to, size, static_cast<off_t>(address));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return failed(output, H5E_READERROR);
+    if (got < 0) return failed(*self.output, errno, H5E_READERROR);
     if (got == 0) break;
     to += got;
     address += static_cast<haddr_t>(got);
@@ -89,39 +111,26 @@ herr_t read(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t addre
   return 0;
 }
 
-/// Lets the disk begin with what is there: else it stands still until all waits for it at the end.
-void send(DriverFile& self, std::size_t bytes) {
-  constexpr std::size_t kAtOnce = 32 << 20;
-  self.unsent += bytes;
-  if (self.unsent < kAtOnce) return;
-  ::sync_file_range(self.output->fd, 0, 0, SYNC_FILE_RANGE_WRITE);  // only a hint
-  self.unsent = 0;
-}
-
 herr_t write(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t address,
              std::size_t size, const void* buffer) {
   DriverFile& self = mine(file);
   if (self.output->error != 0) return 0;
-  const char* from = static_cast<const char*>(buffer);
-  const std::size_t all = size;
-  while (size > 0) {
-    const ssize_t put = ::pwrite(self.output->fd, from, size, static_cast<off_t>(address));
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return failed(*self.output, H5E_WRITEERROR);
-    from += put;
-    address += static_cast<haddr_t>(put);
-    size -= static_cast<std::size_t>(put);
+  int error = ENOMEM;
+  try {
+    error = self.behind->write(address, {static_cast<const char*>(buffer), size});
+  } catch (const std::bad_alloc&) {  // nothing may be thrown through the library
   }
-  self.end_written = std::max(self.end_written, address);
-  send(self, all);
+  if (error != 0) return failed(*self.output, error, H5E_WRITEERROR);
+  self.end_written = std::max(self.end_written, address + size);
   return 0;
 }
 
 herr_t truncate(H5FD_t* file, hid_t /*transfer*/, hbool_t /*closing*/) {
   DriverFile& self = mine(file);
+  settle(self);
   if (self.output->error != 0 || self.end_allocated == self.end_written) return 0;
   if (::ftruncate(self.output->fd, static_cast<off_t>(self.end_allocated)) != 0) {
-    return failed(*self.output, H5E_SEEKERROR);
+    return failed(*self.output, errno, H5E_SEEKERROR);
   }
   self.end_written = self.end_allocated;
   return 0;

@@ -18,8 +18,9 @@ struct Output {
 /// there.
 ///
 /// Written through a driver of ours, because HDF5 1.10 crashes at exit when a file cannot be closed
-/// (measured: a limit on file size). After the first failed write, later ones do nothing and
-/// succeed, so that closing always works.
+/// (measured: a limit on file size). It writes behind HDF5's back (write_behind.h), so a failure is
+/// seen later, at the latest by who closed the file. After it, writing does nothing and succeeds,
+/// so that closing always works.
 ///
 /// @param output  open for reading and writing; must outlive the file; not closed here
 Handle create_file(Output& output);

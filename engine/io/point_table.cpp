@@ -209,15 +209,32 @@ Handle PointTable::other(const std::string& name) const {
 
 void PointTable::read_numbers(const PointColumn& column, std::int64_t begin,
                               std::span<double> to) const {
-  hdf5::read_range(column.dataset.get(), H5T_NATIVE_DOUBLE, shape_, begin,
-                   static_cast<std::int64_t>(to.size()), to.data());
+  const hid_t dataset = column.dataset.get();
+  const auto count = static_cast<std::int64_t>(to.size());
+  const auto read = [&](auto* values) {
+    const hid_t type = hdf5::memory_type<std::remove_pointer_t<decltype(values)>>();
+    hdf5::read_range(dataset, type, shape_, begin, count, values);
+  };
+  const Handle type(H5Dget_type(dataset), "read a type");
+  // As they are stored, integers go past the library.
+  const auto read_as = [&]<class Stored>(std::vector<Stored> stored) {
+    read(stored.data());
+    std::copy(stored.begin(), stored.end(), to.begin());
+  };
+  if (H5Tequal(type.get(), H5T_NATIVE_INT8) > 0) {
+    read_as(std::vector<std::int8_t>(to.size()));
+  } else if (H5Tequal(type.get(), H5T_NATIVE_INT32) > 0) {
+    read_as(std::vector<std::int32_t>(to.size()));
+  } else {
+    read(to.data());
+  }
 }
 
 std::int64_t PointTable::last_border(std::int64_t begin, std::int64_t end) const {
   if (chunk_.empty()) return end;
   std::int64_t border = end;
   for (std::int64_t next = begin; next < end;) {
-    next = chunk_end(shape_, chunk_, next);
+    next = chunk_around(shape_, chunk_, next).end;
     if (next <= end) border = next;
   }
   return border;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
@@ -100,18 +99,23 @@ bool has_traces(const PointTable& table) {
 
 }  // namespace
 
+bool can_read_while_writing() {
+  hbool_t safe = false;
+  return H5is_library_threadsafe(&safe) >= 0 && safe;
+}
+
 struct ResultBlocks::Open {
-  explicit Open(const std::string& file) : path(file), table(std::in_place, file) {}
+  explicit Open(const std::string& file) : path(file), table(file) {}
 
   const PointColumn& column(PointColumn::Kind kind) const {
-    for (const PointColumn& c : table->columns()) {
+    for (const PointColumn& c : table.columns()) {
       if (c.kind == kind) return c;
     }
     throw core::InputError({path, 0}, "is no result of a study: it has no status or no failures");
   }
 
   std::string path;
-  std::optional<PointTable> table;  ///< until it is closed
+  PointTable table;
   sweep::Layout layout;
   std::vector<const PointColumn*> values;
   std::optional<Traces> traces;
@@ -121,7 +125,7 @@ ResultBlocks::ResultBlocks(const std::string& path) {
   const hdf5::QuietErrors quiet;
   try {
     open_ = std::make_unique<Open>(path);
-    const PointTable& table = *open_->table;
+    const PointTable& table = open_->table;
     sweep::Layout& layout = open_->layout;
     layout.dimensions = table.dimensions();
     layout.shape = table.shape();
@@ -148,6 +152,7 @@ ResultBlocks::ResultBlocks(const std::string& path) {
 
 ResultBlocks::~ResultBlocks() = default;
 ResultBlocks::ResultBlocks(ResultBlocks&&) noexcept = default;
+ResultBlocks& ResultBlocks::operator=(ResultBlocks&&) noexcept = default;
 
 const std::string& ResultBlocks::path() const {
   return open_->path;
@@ -157,12 +162,6 @@ const sweep::Layout& ResultBlocks::layout() const {
   return open_->layout;
 }
 
-void ResultBlocks::close() {
-  open_->traces.reset();
-  open_->values.clear();
-  open_->table.reset();
-}
-
 sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
   sweep::Block block(first, count, 0, false);
   read(first, count, block);
@@ -170,12 +169,10 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
 }
 
 std::int64_t ResultBlocks::last_border(std::int64_t first, std::int64_t end) const {
-  assert(open_->table);
-  return open_->table->last_border(first, end);
+  return open_->table.last_border(first, end);
 }
 
 void ResultBlocks::read(std::int64_t first, std::int64_t count, sweep::Block& block) const {
-  assert(open_->table);
   const hdf5::QuietErrors quiet;
   const Open& open = *open_;
   const auto points = static_cast<std::size_t>(count);
@@ -186,7 +183,7 @@ void ResultBlocks::read(std::int64_t first, std::int64_t count, sweep::Block& bl
   block.traces.clear();
   try {
     std::vector<double> codes(points);
-    open.table->read_numbers(open.column(PointColumn::Kind::status), first, codes);
+    open.table.read_numbers(open.column(PointColumn::Kind::status), first, codes);
     for (std::size_t i = 0; i < points; ++i) {
       if (!(codes[i] >= 0.0 && codes[i] <= 3.0))
         throw core::InputError({open.path, 0}, "has an unknown status");
@@ -197,12 +194,12 @@ void ResultBlocks::read(std::int64_t first, std::int64_t count, sweep::Block& bl
     block.values.resize(any ? open.values.size() * points : 0);
     if (!any) return;
     for (std::size_t c = 0; c < open.values.size(); ++c) {
-      open.table->read_numbers(*open.values[c], first,
-                               std::span(block.values).subspan(c * points, points));
+      open.table.read_numbers(*open.values[c], first,
+                              std::span(block.values).subspan(c * points, points));
     }
-    open.table->read_numbers(open.column(PointColumn::Kind::failure), first, codes);
+    open.table.read_numbers(open.column(PointColumn::Kind::failure), first, codes);
     for (std::size_t i = 0; i < points; ++i) {
-      if (codes[i] != 0.0) block.failures[i] = open.table->reason(codes[i]);
+      if (codes[i] != 0.0) block.failures[i] = open.table.reason(codes[i]);
     }
     if (open.traces) read_traces(*open.traces, open.layout.shape, block);
   } catch (const hdf5::Error& error) {

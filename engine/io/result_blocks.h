@@ -9,6 +9,9 @@
 
 namespace millstudy::io {
 
+/// True if results can be read while others are written: the library was built for threads.
+bool can_read_while_writing();
+
 /// A result file read back as the blocks it was written from.
 class ResultBlocks {
  public:
@@ -16,6 +19,7 @@ class ResultBlocks {
   explicit ResultBlocks(const std::string& path);
   ~ResultBlocks();
   ResultBlocks(ResultBlocks&&) noexcept;
+  ResultBlocks& operator=(ResultBlocks&&) noexcept;
 
   const std::string& path() const;
   /// All that the file says but the results.
@@ -31,9 +35,6 @@ class ResultBlocks {
   /// Up to where, of points first .. end - 1, no chunk of the file is cut: the rest of one that is
   /// would be unpacked twice.
   std::int64_t last_border(std::int64_t first, std::int64_t end) const;
-
-  /// Nothing more will be read: frees all but the layout.
-  void close();
 
  private:
   struct Open;

@@ -64,6 +64,10 @@ std::optional<std::int64_t> ResultSummary::integer(const std::string& name) cons
   return get<std::int64_t>(*this, name);
 }
 
+std::optional<double> ResultSummary::real(const std::string& name) const {
+  return get<double>(*this, name);
+}
+
 std::optional<ResultSummary> read_result_summary(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

@@ -16,6 +16,7 @@ struct ResultSummary {
   /// The attribute of that name and form, if there is one.
   std::optional<std::string> text(const std::string& name) const;
   std::optional<std::int64_t> integer(const std::string& name) const;
+  std::optional<double> real(const std::string& name) const;
 };
 
 /// What a result file says about itself; nothing if there is no such file.

@@ -117,9 +117,10 @@ std::vector<float> some_samples(const std::vector<sweep::Block>& blocks,
   return samples;
 }
 
+/// As ChunkStream decides it.
 template <class T>
-bool is_repetitive(const std::vector<T>& values) {
-  return io::is_repetitive(std::span<const T>(values));
+bool gzip_pays(const ChunkStream<T>& stream, const std::vector<T>& values) {
+  return is_repetitive(std::span<const T>(values), stream.fill());
 }
 
 /// Writes what was measured; returns what the file of all points takes beyond it.
@@ -137,7 +138,8 @@ double write_measured(hdf5::Output& output, const sweep::Layout& layout,
   content.finish({});
   const ResultVariables& variables = content.variables();
   for (std::size_t c = 0; c < variables.columns.size(); ++c) {
-    scaling.add(variables.columns[c], points, is_repetitive(some_values(measured, c)));
+    const ChunkStream<double>& column = variables.columns[c];
+    scaling.add(column, points, gzip_pays(column, some_values(measured, c)));
   }
   scaling.add(variables.status, points, true);
   scaling.add(variables.failure_code, points, true);
@@ -148,7 +150,7 @@ double write_measured(hdf5::Output& output, const sweep::Layout& layout,
                             padded_samples(trace_samples), static_cast<double>(kChunkElements)};
     for (std::size_t k = 0; k < kTraceChannels.size(); ++k) {
       const std::vector<float> some = some_samples(measured, kTraceChannels[k].samples);
-      scaling.add(traces.samples[k], samples, is_repetitive(some));
+      scaling.add(traces.samples[k], samples, gzip_pays(traces.samples[k], some));
     }
   }
   return scaling.growth();

@@ -16,7 +16,8 @@ namespace millstudy::io {
 /// everything the layout says; attributes of finish() are added to, or replace, those of the
 /// layout.
 ///
-/// Memory: one chunk (512 KiB) a column and the failure table, whatever the number of points.
+/// Memory: one chunk (512 KiB) a column, the failure table and 4 MiB on their way to the disk,
+/// whatever the number of points.
 ///
 /// @param path    folder must exist; an existing file is replaced by finish()
 /// @param layout  copied where it is needed later

@@ -76,16 +76,17 @@ bool is_row_major(std::span<const std::int64_t> shape, std::span<const std::int6
   return true;
 }
 
-std::int64_t chunk_end(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
-                       std::int64_t begin) {
-  if (shape.empty()) return 1;
+Run chunk_around(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
+                 std::int64_t element) {
+  if (shape.empty()) return {0, 1};
   std::size_t split = 0;
   while (split + 1 < shape.size() && chunk[split] == 1) ++split;
   const std::int64_t inner = element_count(shape.subspan(split + 1));
   const std::int64_t row = shape[split] * inner;
   const std::int64_t size = chunk[split] * inner;
-  const std::int64_t in_row = begin % row;
-  return begin + std::min(row - in_row, size - in_row % size);
+  const std::int64_t in_row = element % row;
+  const std::int64_t in_chunk = in_row % size;
+  return {element - in_chunk, element + std::min(row - in_row, size - in_chunk)};
 }
 
 }  // namespace millstudy::io

@@ -41,9 +41,15 @@ Shape row_major_chunk(std::span<const std::int64_t> shape, std::int64_t largest)
 /// True if chunks of this shape are such runs.
 bool is_row_major(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk);
 
-/// Where the chunk that holds element begin ends, in row-major order.
+/// Elements begin .. end - 1 of an array, in row-major order.
+struct Run {
+  std::int64_t begin;
+  std::int64_t end;
+};
+
+/// The chunk that holds an element.
 /// @param chunk  is_row_major()
-std::int64_t chunk_end(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
-                       std::int64_t begin);
+Run chunk_around(std::span<const std::int64_t> shape, std::span<const std::int64_t> chunk,
+                 std::int64_t element);
 
 }  // namespace millstudy::io

@@ -11,6 +11,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/file_at.h"
 #include "core/resource_error.h"
 #include "sweep/journal_file.h"
 #include "sweep/journal_scan.h"
@@ -45,14 +46,14 @@ void Journal::take() const {
 
 void Journal::open(const JournalHeader& header, const std::string& owner) {
   const auto write = [&](std::uint64_t place, std::string_view bytes) {
-    const int error = write_at(fd_, place, bytes);
+    const int error = core::write_at(fd_, place, bytes);
     if (error != 0) {
       throw core::ResourceError(
           fmt::format("{}: cannot be written: {}", path_, std::strerror(error)));
     }
   };
   // A beginning that was cut short before the magic was written holds nothing.
-  const std::string beginning = read_at(fd_, 0, kJournalMagic.size());
+  const std::string beginning = core::read_at(fd_, 0, kJournalMagic.size());
   const bool empty = kJournalMagic.starts_with(beginning) && beginning != kJournalMagic;
   if (empty || beginning == std::string(kJournalMagic.size(), '\0')) {
     // The magic comes last: a beginning that was cut short is not taken for a journal.
@@ -107,8 +108,8 @@ Block Journal::read(std::int64_t index) const {
     return {header.first_of(index), header.count_of(index),
             static_cast<std::size_t>(header.columns), header.traces};
   }
-  const auto head = decode_head(read_at(fd_, entry.place - kFrameHead, kFrameHead));
-  const std::string payload = read_at(fd_, entry.place, entry.length);
+  const auto head = decode_head(core::read_at(fd_, entry.place - kFrameHead, kFrameHead));
+  const std::string payload = core::read_at(fd_, entry.place, entry.length);
   if (head && is_whole(*head, payload)) {
     if (auto block = decode_block(header, index, payload)) return std::move(*block);
   }
@@ -126,7 +127,7 @@ void Journal::append(const Block& block, const BlockTimes& times) {
                                             std::strerror(std::exchange(sync_error_, 0))));
     }
   }
-  const int error = write_at(fd_, contents_.end, frame);
+  const int error = core::write_at(fd_, contents_.end, frame);
   if (error != 0) {
     // What is torn would be found at the next start; the space may be needed at once.
     if (::ftruncate(fd_, static_cast<off_t>(contents_.end)) != 0) { /* stays torn */

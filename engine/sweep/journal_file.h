@@ -3,15 +3,10 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
-/// What reading and writing a journal need of its file.
+/// What reading and writing a journal ask of its file, besides bytes.
 namespace millstudy::sweep {
 
-/// So many bytes from a place on, or what the file has of them.
-std::string read_at(int fd, std::uint64_t place, std::uint64_t size);
-/// @return 0, or the errno of what went wrong
-int write_at(int fd, std::uint64_t place, std::string_view bytes);
 std::uint64_t size_of(int fd);
 /// Who writes the journal, by its own words.
 std::string owner_in(int fd);

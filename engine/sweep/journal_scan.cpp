@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "core/file_at.h"
 #include "sweep/journal_file.h"
 
 namespace millstudy::sweep {
@@ -39,11 +40,11 @@ class Scan {
  private:
   /// Takes the frame at a place. @return where the next begins; 0 if there is none here
   std::uint64_t frame_at(std::uint64_t place) {
-    const auto head = decode_head(read_at(fd_, place, kFrameHead));
+    const auto head = decode_head(core::read_at(fd_, place, kFrameHead));
     if (!head || head->length > contents_.size - place - kFrameHead) return 0;
     if (head->block >= contents_.entries.size() + kMostAhead) return 0;
     if (head->length > effort_left_) return 0;
-    const std::string payload = read_at(fd_, place + kFrameHead, head->length);
+    const std::string payload = core::read_at(fd_, place + kFrameHead, head->length);
     if (!is_whole(*head, payload)) {
       effort_left_ -= head->length;  // of false beginnings
       return 0;
@@ -65,7 +66,8 @@ class Scan {
     std::string marker(sizeof kFrameMarker, '\0');
     std::memcpy(marker.data(), &kFrameMarker, sizeof kFrameMarker);
     for (; place < contents_.size; place += kWindow) {
-      const std::string window = read_at(fd_, place, kWindow + marker.size() - 1);
+      const std::string window =
+          core::read_at(fd_, place, std::min(kWindow + marker.size() - 1, contents_.size - place));
       for (std::size_t at = window.find(marker); at != std::string::npos;
            at = window.find(marker, at + 1)) {
         if (is_frame(place + at)) return place + at;
@@ -75,11 +77,11 @@ class Scan {
   }
 
   bool is_frame(std::uint64_t place) {
-    const auto head = decode_head(read_at(fd_, place, kFrameHead));
+    const auto head = decode_head(core::read_at(fd_, place, kFrameHead));
     if (!head || head->length > contents_.size - place - kFrameHead) return false;
     if (head->length > effort_left_) return false;
     effort_left_ -= head->length;
-    return is_whole(*head, read_at(fd_, place + kFrameHead, head->length));
+    return is_whole(*head, core::read_at(fd_, place + kFrameHead, head->length));
   }
 
   void add(std::int64_t index, const JournalEntry& entry) {
@@ -115,7 +117,7 @@ class Scan {
 JournalContents scan_journal(int fd, const std::string& path) {
   JournalContents contents;
   contents.size = size_of(fd);
-  const std::string beginning = read_at(fd, 0, kHeaderPlace);
+  const std::string beginning = core::read_at(fd, 0, kHeaderPlace);
   if (!beginning.starts_with(kJournalMagic)) refuse_journal(path, "is not a journal of a run");
   std::uint32_t version = 0, length = 0;
   if (beginning.size() == kHeaderPlace) {
@@ -129,7 +131,8 @@ JournalContents scan_journal(int fd, const std::string& path) {
     }
   }
   const std::uint64_t whole = kHeaderPlace + std::uint64_t{length} + sizeof(std::uint32_t);
-  const auto header = whole <= contents.size ? decode_header(read_at(fd, 0, whole)) : std::nullopt;
+  const auto header =
+      whole <= contents.size ? decode_header(core::read_at(fd, 0, whole)) : std::nullopt;
   if (!header) {
     refuse_journal(path,
                    "has a damaged beginning, no point of it can be told: start anew with --fresh");

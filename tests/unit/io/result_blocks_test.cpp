@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <random>
+#include <zlib.h>
 
 #include "core/error.h"
 #include "io/hdf5.h"
@@ -143,6 +144,47 @@ TEST_F(ResultBlocksTest, RefuseTracesOfOtherLengths) {
     claim_one_more(path_, name);
     EXPECT_THROW(ResultBlocks{path_}, core::InputError) << name;
   }
+}
+
+/// What gzip makes of so many equal bytes.
+std::string packed(std::size_t bytes) {
+  const std::string plain(bytes, '\1');
+  std::string result(::compressBound(bytes), '\0');
+  uLongf length = result.size();
+  ::compress(reinterpret_cast<Bytef*>(result.data()), &length,
+             reinterpret_cast<const Bytef*>(plain.data()), plain.size());
+  result.resize(length);
+  return result;
+}
+
+TEST_F(ResultBlocksTest, RefuseChunksThatCannotBeUnpacked) {
+  const sweep::Layout layout = sample::layout({30, 1000}, Design::grid, false);
+  write(layout, {0, 30000});
+  std::size_t size = 0;
+  {
+    const hdf5::Handle file = hdf5::open_file_to_read(path_);
+    const hdf5::Handle status(H5Dopen2(file.get(), "status", H5P_DEFAULT), "open");
+    size = static_cast<std::size_t>(element_count(hdf5::chunk_of(status.get())));
+  }
+  const auto read_with = [&](const std::string& chunk, std::uint32_t skipped) {
+    write(layout, {0, 30000});
+    {
+      const hdf5::Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open");
+      const hdf5::Handle status(H5Dopen2(file.get(), "status", H5P_DEFAULT), "open");
+      const std::array<hsize_t, 2> start = {0, 0};
+      hdf5::check(H5Dwrite_chunk(status.get(), H5P_DEFAULT, skipped, start.data(), chunk.size(),
+                                 chunk.data()),
+                  "write");
+    }
+    return ResultBlocks(path_).read(0, 30000);
+  };
+  EXPECT_EQ(read_with(packed(size), 0).status[size - 1], static_cast<sweep::Status>(1));
+  EXPECT_THROW(read_with("no gzip", 0), core::InputError);
+  EXPECT_THROW(read_with(packed(size - 1), 0), core::InputError);
+  EXPECT_THROW(read_with(packed(size + 1), 0), core::InputError);
+  EXPECT_THROW(read_with(packed(size).substr(0, 20), 0), core::InputError);
+  EXPECT_THROW(read_with(std::string(3 * size + 100, '\1'), 0), core::InputError);
+  EXPECT_THROW(read_with(std::string(size - 1, '\1'), hdf5::kAllFilters), core::InputError);
 }
 
 TEST_F(ResultBlocksTest, RefuseTracesThatAreNotThere) {

@@ -59,14 +59,17 @@ TEST(RowMajorChunk, IsOneRunOfTheOrderAndNotTooLarge) {
       EXPECT_GT(2 * element_count(chunk), largest / 2);
     }
     for (std::int64_t begin = 0; begin < element_count(shape);) {
-      const std::int64_t end = chunk_end(shape, chunk, begin);
+      const std::int64_t end = chunk_around(shape, chunk, begin).end;
       const std::vector<Box> boxes = row_major_boxes(shape, begin, end);
       ASSERT_EQ(boxes.size(), 1u);
       for (std::size_t d = 0; d < shape.size(); ++d) {
         EXPECT_EQ(boxes[0].start[d] % chunk[d], 0);
         EXPECT_EQ(boxes[0].count[d], std::min(chunk[d], shape[d] - boxes[0].start[d]));
       }
-      EXPECT_EQ(chunk_end(shape, chunk, end - 1), end);
+      for (std::int64_t element = begin; element < end; ++element) {
+        EXPECT_EQ(chunk_around(shape, chunk, element).begin, begin);
+        EXPECT_EQ(chunk_around(shape, chunk, element).end, end);
+      }
       begin = end;
     }
   }
@@ -74,7 +77,7 @@ TEST(RowMajorChunk, IsOneRunOfTheOrderAndNotTooLarge) {
 
 TEST(RowMajorChunk, EndsWithoutOverflow) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  EXPECT_EQ(chunk_end(Shape{kMost}, Shape{65536}, kMost - 10), kMost);
+  EXPECT_EQ(chunk_around(Shape{kMost}, Shape{65536}, kMost - 10).end, kMost);
 }
 
 TEST(RowMajorChunk, IsToldFromOthers) {

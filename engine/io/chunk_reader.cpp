@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "io/chunk_reader.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+#include <zlib.h>
+
+namespace millstudy::io {
+namespace {
+
+using hdf5::check;
+using hdf5::Handle;
+
+/// True if the filters are byte shuffle and gzip.
+bool is_shuffle_and_gzip(hid_t creation) {
+  if (H5Pget_nfilters(creation) != 2) return false;
+  const auto filter = [&](unsigned number) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    return H5Pget_filter2(creation, number, &flags, &values, nullptr, 0, nullptr, nullptr);
+  };
+  return filter(0) == H5Z_FILTER_SHUFFLE && filter(1) == H5Z_FILTER_DEFLATE;
+}
+
+/// Undoes byte shuffle: first the first bytes of all elements, then the second ones, ...
+template <std::size_t size>
+void unshuffle(const char* from, std::size_t elements, char* to) {
+  for (std::size_t i = 0; i < elements; ++i) {
+    for (std::size_t byte = 0; byte < size; ++byte) to[i * size + byte] = from[byte * elements + i];
+  }
+}
+
+bool unshuffle(const char* from, std::size_t bytes, std::size_t size, char* to) {
+  switch (size) {
+    case 1:
+      unshuffle<1>(from, bytes, to);
+      return true;
+    case 4:
+      unshuffle<4>(from, bytes / 4, to);
+      return true;
+    case 8:
+      unshuffle<8>(from, bytes / 8, to);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What gzip packed; nothing but exactly so many bytes will do.
+std::unique_ptr<char[]> unpack(std::span<const char> packed, std::size_t bytes) {
+  auto unpacked = std::make_unique_for_overwrite<char[]>(bytes);
+  uLongf length = bytes;
+  const int result = ::uncompress(reinterpret_cast<Bytef*>(unpacked.get()), &length,
+                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  if (result != Z_OK || length != bytes) throw hdf5::Error("a chunk cannot be unpacked");
+  return unpacked;
+}
+
+}  // namespace
+
+std::optional<ChunkReader> ChunkReader::of(hid_t dataset, hid_t memory_type, const Shape& shape) {
+  const H5T_class_t kind = H5Tget_class(memory_type);  // texts hold addresses
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || shape.empty()) return {};
+  const Handle type(H5Dget_type(dataset), "read a type");
+  if (check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
+  if (hdf5::shape_of(dataset) != shape) return {};
+  const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
+  if (!is_shuffle_and_gzip(creation.get())) return {};
+  Shape chunk = hdf5::chunk_of(dataset);
+  if (chunk.empty() || !is_row_major(shape, chunk)) return {};
+  return ChunkReader(dataset, shape, std::move(chunk), H5Tget_size(memory_type));
+}
+
+bool ChunkReader::read(std::int64_t element, char* to) const {
+  const Shape start = row_major_boxes(shape_, element, element + 1)[0].start;
+  const std::vector<hsize_t> place(start.begin(), start.end());
+  const std::size_t bytes = static_cast<std::size_t>(elements()) * size_;
+  // Both look for the chunk in the same way, so that it has the size that there is room for.
+  hsize_t stored = 0;
+  if (H5Dget_chunk_storage_size(dataset_, place.data(), &stored) < 0 || stored == 0) return false;
+  if (stored > 2 * bytes + 64) throw hdf5::Error("a chunk is larger than what is in it");
+  std::vector<char> packed(stored == bytes ? 0 : stored);
+  std::uint32_t skipped = 0;
+  check(H5Dread_chunk(dataset_, H5P_DEFAULT, place.data(), &skipped,
+                      packed.empty() ? to : packed.data()),
+        "read a variable");
+  if (skipped == hdf5::kAllFilters) {
+    if (!packed.empty()) throw hdf5::Error("a chunk has not the size of what is in it");
+    return true;
+  }
+  if (packed.empty() || skipped != 0) return false;
+  return unshuffle(unpack(packed, bytes).get(), bytes, size_, to);
+}
+
+}  // namespace millstudy::io
