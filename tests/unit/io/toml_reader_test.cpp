@@ -150,15 +150,17 @@ TEST(Toml, TakesDotsThatAreNotOfKeys) {
 }
 
 TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
+  for (const std::string text : {"[öl]\n", "[a.ö]\n", "öl = 1\n", "a = ö\n", "a = [1,\u00a02]\n",
+                                 "a = 1 ö\n", "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n",
+                                 "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n", "a = 1\ufeff\n"}) {
+    EXPECT_EQ(refusal("\n" + text).substr(0, 7), "s.toml:") << text;
+  }
+  // The parser reads these quotes as a part of what is before them, so it may not see the rest.
   for (const std::string text :
-       {"[öl]\n", "[a.ö]\n", "öl = 1\n", "a = ö\n", "a = [1,\u00a02]\n", "a = 1 ö\n",
-        "a = {ö = 1}\n", "[\u3000]\n", "[[ж]]\n", "a = \"open\\\n[ö]\n", "a = 'open\n[ö]\n",
-        "a = 1\ufeff\n",
-        // The parser reads these quotes as a part of what is before them.
-        "a = -'\ufef7'\n", "a = 1\"\u2003\"\n", "a = 1979-05-27 '\ufef7'\n", "a = it's ö'\n",
+       {"a = -'\ufef7'\n", "a = 1\"\u2003\"\n", "a = 1979-05-27 '\ufef7'\n", "a = it's ö'\n",
         "a = [1.0, 1.'\u03e2']\n", "a = 1['\ufef7'\n", "a = 1={'ﻷ'\n", "a = {b = 1.'\ufef7'}\n",
         "a = [[1], 2['\ufef7']]\n", "a = ['b'['\ufef7']]\n", "a = [\n1.'\ufef7']\n"}) {
-    EXPECT_EQ(refusal("\n" + text).substr(0, 7), "s.toml:") << text;
+    EXPECT_NE(refusal(text).find(" cannot stand there: "), std::string::npos) << text;
   }
   EXPECT_EQ(refusal("\n\n[öl]\n"),
             "s.toml:3: ö cannot stand there: names of keys are letters a to z, digits, _ and -; "
