@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <random>
 #include <zlib.h>
@@ -185,6 +186,33 @@ TEST_F(ResultBlocksTest, RefuseChunksThatCannotBeUnpacked) {
   EXPECT_THROW(read_with(packed(size).substr(0, 20), 0), core::InputError);
   EXPECT_THROW(read_with(std::string(3 * size + 100, '\1'), 0), core::InputError);
   EXPECT_THROW(read_with(std::string(size - 1, '\1'), hdf5::kAllFilters), core::InputError);
+}
+
+/// A chunk whose record says that nothing of it is stored is no chunk that was left out.
+TEST_F(ResultBlocksTest, RefuseChunksOfNoBytes) {
+  write(sample::layout({30, 1000}, Design::grid, false), {0, 30000});
+  std::array<std::uint32_t, 2> record = {0, 0};  // bytes, filters that were skipped
+  {
+    const hdf5::Handle file = hdf5::open_file_to_read(path_);
+    const hdf5::Handle status(H5Dopen2(file.get(), "status", H5P_DEFAULT), "open");
+    const std::array<hsize_t, 2> start = {0, 0};
+    hsize_t bytes = 0;
+    hdf5::check(H5Dget_chunk_storage_size(status.get(), start.data(), &bytes), "look");
+    record[0] = static_cast<std::uint32_t>(bytes);
+  }
+  std::string key(reinterpret_cast<const char*>(record.data()), sizeof record);
+  key.append(3 * sizeof(std::uint64_t), '\0');  // its place, and that within an element
+  std::string file;
+  {
+    std::ifstream in(path_, std::ios::binary);
+    file.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::size_t at = file.find(key);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(file.find(key, at + 1), std::string::npos);
+  file.replace(at, sizeof(std::uint32_t), sizeof(std::uint32_t), '\0');
+  std::ofstream(path_, std::ios::binary | std::ios::trunc) << file;
+  EXPECT_THROW(ResultBlocks(path_).read(0, 30000), core::InputError);
 }
 
 TEST_F(ResultBlocksTest, RefuseTracesThatAreNotThere) {
