@@ -10,7 +10,6 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "core/error.h"
-#include "core/file_at.h"
 #include "io/result_blocks.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
@@ -59,8 +58,7 @@ struct Counts {
 };
 
 /// A part of a study: what its file says of itself, and the points first .. end - 1 that it is of.
-class Part {
- public:
+struct Part {
   Part(std::string file, std::int64_t points) : path(std::move(file)) {
     const std::optional<io::ResultSummary> found = io::read_result_summary(path);
     if (!found) throw core::InputError({path, 0}, "is no file that can be read");
@@ -119,7 +117,6 @@ std::int64_t next_border(const std::vector<Part>& parts, std::int64_t first, std
 /// The points of all parts, in order; who has a point that another has too is told.
 class Joined {
  public:
-  /// @param parts  in the order of their first points
   Joined(std::vector<Part>& parts, const sweep::Layout& layout) : parts_(parts), layout_(layout) {}
 
   /// The next points: as many as are in the same parts, within limits of memory. A part is open
@@ -134,7 +131,6 @@ class Joined {
       if (part.first <= first && first < part.end) here.push_back(&open(part));
     }
     if (end < border && !here.empty()) end = here[0]->last_border(first, end);
-    expect_those_after(end);
     const std::int64_t count = end - first;
     if (here.size() == 1) here[0]->read(first, count, block);  // mostly
     if (here.size() != 1 || block.values.empty()) {
@@ -166,16 +162,6 @@ class Joined {
     }
   }
 
-  /// The disk reads the next few parts while this one is unpacked.
-  void expect_those_after(std::int64_t end) {
-    constexpr std::size_t kAhead = 3;
-    constexpr std::uint64_t kMost = 64 << 20;  // of larger ones, what follows comes in time
-    while (expected_ < parts_.size() &&
-           (expected_ < kAhead || parts_[expected_ - kAhead].first < end)) {
-      core::expect_file(parts_[expected_++].path, kMost);
-    }
-  }
-
   void count_statuses(const sweep::Block& block) {
     for (std::int64_t i = 0; i < block.count; ++i) {
       if (block.status[i] == sweep::Status::not_run) missing_.add(block.first + i);
@@ -188,7 +174,6 @@ class Joined {
   std::vector<Part>& parts_;
   const sweep::Layout& layout_;
   std::int64_t next_ = 0;
-  std::size_t expected_ = 0;
   Ranges twice_, missing_;
   Counts counts_;
 };
@@ -229,8 +214,6 @@ double wall_time(const std::vector<Part>& parts) {
 }  // namespace
 
 int merge(const std::string& output, const std::vector<std::string>& files) {
-  constexpr std::uint64_t kBeginning = 1 << 20;  // names, units and where all the rest is
-  for (const std::string& file : files) core::expect_file(file, kBeginning);
   const sweep::Layout layout = layout_of_all(io::ResultBlocks(files[0]).layout());
   std::vector<Part> parts;
   for (const std::string& file : files) {
@@ -238,8 +221,6 @@ int merge(const std::string& output, const std::vector<std::string>& files) {
     parts.emplace_back(file, layout.points());
     check_same(parts.front(), parts.back());
   }
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.first < b.first; });
   const auto writer = io::make_result_writer(output, layout);
   Joined joined(parts, layout);
   write_all(joined, layout.points(), *writer);

@@ -2,7 +2,6 @@
 #include "core/file_at.h"
 
 #include <cerrno>
-#include <fcntl.h>
 #include <unistd.h>
 
 namespace millstudy::core {
@@ -31,13 +30,6 @@ int write_at(int fd, std::uint64_t place, std::string_view bytes) {
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
   return 0;
-}
-
-void expect_file(const std::string& path, std::uint64_t bytes) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) return;
-  ::posix_fadvise(fd, 0, static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
-  ::close(fd);
 }
 
 }  // namespace millstudy::core

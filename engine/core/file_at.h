@@ -13,7 +13,4 @@ std::string read_at(int fd, std::uint64_t place, std::uint64_t size);
 /// @return 0, or the errno of what went wrong
 int write_at(int fd, std::uint64_t place, std::string_view bytes);
 
-/// These first bytes of a file will be read soon: lets the disk begin, where it can be.
-void expect_file(const std::string& path, std::uint64_t bytes);
-
 }  // namespace millstudy::core

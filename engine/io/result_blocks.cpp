@@ -152,7 +152,6 @@ ResultBlocks::ResultBlocks(const std::string& path) {
 
 ResultBlocks::~ResultBlocks() = default;
 ResultBlocks::ResultBlocks(ResultBlocks&&) noexcept = default;
-ResultBlocks& ResultBlocks::operator=(ResultBlocks&&) noexcept = default;
 
 const std::string& ResultBlocks::path() const {
   return open_->path;

@@ -19,7 +19,6 @@ class ResultBlocks {
   explicit ResultBlocks(const std::string& path);
   ~ResultBlocks();
   ResultBlocks(ResultBlocks&&) noexcept;
-  ResultBlocks& operator=(ResultBlocks&&) noexcept;
 
   const std::string& path() const;
   /// All that the file says but the results.
