@@ -12,13 +12,14 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-/// True if the filters are byte shuffle and gzip.
-bool is_shuffle_and_gzip(hid_t creation) {
-  if (H5Pget_nfilters(creation) != 2) return false;
+/// True if the filters of a variable are byte shuffle and gzip.
+bool goes_through_shuffle_and_gzip(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
+  if (H5Pget_nfilters(creation.get()) != 2) return false;
   const auto filter = [&](unsigned number) {
     unsigned flags = 0;
     std::size_t values = 0;
-    return H5Pget_filter2(creation, number, &flags, &values, nullptr, 0, nullptr, nullptr);
+    return H5Pget_filter2(creation.get(), number, &flags, &values, nullptr, 0, nullptr, nullptr);
   };
   return filter(0) == H5Z_FILTER_SHUFFLE && filter(1) == H5Z_FILTER_DEFLATE;
 }
@@ -65,8 +66,7 @@ std::optional<ChunkReader> ChunkReader::of(hid_t dataset, hid_t memory_type, con
   const Handle type(H5Dget_type(dataset), "read a type");
   if (check(H5Tequal(type.get(), memory_type), "compare types") == 0) return {};
   if (hdf5::shape_of(dataset) != shape) return {};
-  const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
-  if (!is_shuffle_and_gzip(creation.get())) return {};
+  if (!goes_through_shuffle_and_gzip(dataset)) return {};
   Shape chunk = hdf5::chunk_of(dataset);
   if (chunk.empty() || !is_row_major(shape, chunk)) return {};
   return ChunkReader(dataset, shape, std::move(chunk), H5Tget_size(memory_type));

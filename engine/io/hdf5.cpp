@@ -66,14 +66,6 @@ void for_boxes(hid_t dataset, const Shape& shape, std::int64_t begin, std::int64
   }
 }
 
-/// Of a variable with these properties; empty if it is not in chunks.
-Shape chunk_set_in(hid_t creation) {
-  if (H5Pget_layout(creation) != H5D_CHUNKED) return {};
-  std::array<hsize_t, H5S_MAX_RANK> lengths{};
-  const int rank = check(H5Pget_chunk(creation, H5S_MAX_RANK, lengths.data()), "read a chunk");
-  return {lengths.begin(), lengths.begin() + rank};
-}
-
 }  // namespace
 
 QuietErrors::QuietErrors() {
@@ -152,7 +144,11 @@ Shape shape_of(hid_t dataset) {
 
 Shape chunk_of(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), "read the properties of a variable");
-  return chunk_set_in(creation.get());
+  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return {};
+  std::array<hsize_t, H5S_MAX_RANK> lengths{};
+  const int rank =
+      check(H5Pget_chunk(creation.get(), H5S_MAX_RANK, lengths.data()), "read a chunk");
+  return {lengths.begin(), lengths.begin() + rank};
 }
 
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,

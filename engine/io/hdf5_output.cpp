@@ -47,18 +47,17 @@ H5FD_t* open(const char* /*name*/, unsigned flags, hid_t access, haddr_t /*large
     failed(*output, errno, H5E_CANTOPENFILE);
     return nullptr;
   }
-  auto file = std::make_unique<DriverFile>();
-  file->output = output;
   try {
+    auto file = std::make_unique<DriverFile>();
+    file->output = output;
     file->behind.emplace(output->fd);
+    return &file.release()->common;
   } catch (const std::system_error& no_thread) {
     failed(*output, no_thread.code().value(), H5E_CANTOPENFILE);
-    return nullptr;
   } catch (const std::bad_alloc&) {  // nothing may be thrown through the library
     failed(*output, ENOMEM, H5E_CANTOPENFILE);
-    return nullptr;
   }
-  return &file.release()->common;
+  return nullptr;
 }
 
 /// Waits for all that was to be written.

@@ -50,14 +50,14 @@ class WriteBehind {
   int write_out();
 
   const int fd_;
-  std::mutex mutex_;  ///< guards what follows, not what only the writing thread touches
+  Batch writing_;           ///< the writing thread's alone, as is
+  std::size_t unsent_ = 0;  ///< bytes since the disk was last told to begin
+  std::mutex mutex_;        ///< guards what follows
   std::condition_variable changed_;
   Batch waiting_;
   bool is_writing_ = false;
   bool closing_ = false;
   int error_ = 0;
-  Batch writing_;           ///< the writing thread's, as is
-  std::size_t unsent_ = 0;  ///< bytes since the disk was last told to begin
   std::thread writer_;
 };
 
