@@ -41,8 +41,9 @@ bool has_runout(const Cutter& cutter) {
 }
 
 double runout_at(const Runout& runout, double position, double z) {
-  return runout.offset * std::cos(position - runout.angle) +
-         z * std::tan(runout.tilt) * std::cos(position - runout.tilt_angle);
+  const double parallel = runout.offset * std::cos(position - runout.angle);
+  if (runout.tilt == 0.0) return parallel;
+  return parallel + z * std::tan(runout.tilt) * std::cos(position - runout.tilt_angle);
 }
 
 }  // namespace millstudy::cutter

@@ -16,7 +16,8 @@ std::complex<double> transfer(std::span<const DynamometerMode> modes, double fre
   return sum;
 }
 
-ModeFilter::ModeFilter(const Mode& mode, double sampling_interval) : interval_(sampling_interval) {
+ModeFilter::ModeFilter(const Mode& mode, double sampling_interval)
+    : rate_(1.0 / sampling_interval) {
   check(mode);
   const double w = mode.natural_frequency, z = mode.damping_ratio, t = sampling_interval;
   const double root = std::sqrt(1.0 - z * z);
@@ -43,27 +44,19 @@ ModeFilter::ModeFilter(const Mode& mode, double sampling_interval) : interval_(s
   }
 }
 
-double ModeFilter::next(State& state, double force) const {
-  if (!state.begun) {
-    state = {true, force, force, 0.0};
-    return force;
-  }
-  // About the ramp that the mode would follow at a distance.
-  const double slope = (force - state.force) / interval_;
-  const double x = state.position - (state.force - lag_ * slope);
-  const double v = state.velocity - slope;
-  state.position = step_.xx * x + step_.xv * v + force - lag_ * slope;
-  state.velocity = step_.vx * x + step_.vv * v + slope;
-  state.force = force;
-  return state.position;
+void ModeFilter::add_share(State& state, double gain, std::span<const double> force,
+                           std::span<double> signal) const {
+  State now = state;
+  for (std::size_t i = 0; i < force.size(); ++i) signal[i] += gain * next(now, force[i]);
+  state = now;
 }
 
 double ModeFilter::next(GradientState& gradient, double force) const {
   State& state = gradient.state;
   if (!state.begun) return next(state, force);
-  const double slope = (force - state.force) / interval_;
-  const double x = state.position - (state.force - lag_ * slope);
-  const double v = state.velocity - slope;
+  const double slope = (force - state.force) * rate_;
+  const double x = state.position + lag_ * (slope - state.slope);
+  const double v = state.velocity - (slope - state.slope);
   for (int q = 0; q < 2; ++q) {
     const double trail = lag_by_[q] * slope;
     const double dx = gradient.position_by[q] + trail;

@@ -30,11 +30,26 @@ class ModeFilter {
   struct State {
     bool begun = false;
     double force = 0.0;
-    double position = 0.0;
-    double velocity = 0.0;
+    double slope = 0.0;     ///< of the ramp it comes from [per s]
+    double position = 0.0;  ///< less that of a mode that follows the ramp for ever
+    double velocity = 0.0;  ///< likewise
   };
-  /// @return position after the next sample, in the unit of the force
-  double next(State& state, double force) const;
+  /// @return position after the next sample less the force, in the unit of the force
+  double next(State& state, double force) const {
+    if (!state.begun) {
+      state = {true, force};
+      return 0.0;
+    }
+    const double slope = (force - state.force) * rate_;
+    const double change = slope - state.slope;
+    const double x = state.position + lag_ * change;
+    const double v = state.velocity - change;
+    state = {true, force, slope, step_.xx * x + step_.xv * v, step_.vx * x + step_.vv * v};
+    return state.position - lag_ * slope;
+  }
+  /// (D40) for a run of samples: adds what the mode adds to the signal.
+  void add_share(State& state, double gain, std::span<const double> force,
+                 std::span<double> signal) const;
 
   /// The same with its derivatives by natural frequency and damping ratio, (D42).
   struct GradientState {
@@ -48,8 +63,8 @@ class ModeFilter {
   struct Step {
     double xx, xv, vx, vv;  // free motion over one interval
   };
-  double interval_;
-  double lag_;  ///< 2 zeta / omega [s]: how far it trails a ramp
+  double rate_;  ///< [1/s]
+  double lag_;   ///< 2 zeta / omega [s]: how far it trails a ramp
   Step step_;
   double lag_by_[2];
   Step step_by_[2];

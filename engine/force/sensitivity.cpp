@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -213,7 +214,8 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
       law_(edges_),
       arc_(engagement.arc()),
       wanted_(wanted),
-      by_moments_(!wanted.size_effect && !edges_.variable_helix()),
+      by_lines_(!edges_.variable_helix()),
+      by_moments_(by_lines_ && !wanted.size_effect),
       lines_(law_.reaches()),
       reaches_(law_.reaches()) {
   if (cutter.runout.tilt != 0.0) {
@@ -224,17 +226,18 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
   for (const cutter::Flute& flute : edges_.flutes()) {
     tips_.push_back({std::cos(flute.position), std::sin(flute.position)});
   }
-  if (!by_moments_) return;
+  if (!by_lines_) return;
   const double tangent = edges_.flutes().front().helix_tangent;
   for (const EdgePiece& piece : edges_.pieces()) {
+    ends_.push_back({end_at(tangent, piece.bottom), end_at(tangent, piece.top)});
+    if (!by_moments_) continue;
     whole_.push_back(moments_of(edges_, piece, tangent, piece.bottom, piece.top, wanted.slopes));
-    ends_.push_back({lag_at(tangent, piece.bottom), lag_at(tangent, piece.top)});
   }
 }
 
-std::array<double, 2> ForceSensitivity::lag_at(double tangent, double z) const {
+ForceSensitivity::End ForceSensitivity::end_at(double tangent, double z) const {
   const double lag = tangent * edges_.envelope().lag(z);
-  return {std::cos(lag), std::sin(lag)};
+  return {z, {std::cos(lag), std::sin(lag)}};
 }
 
 /// The reach that decides the chip at a height.
@@ -260,43 +263,94 @@ void ForceSensitivity::add_by_nodes(Tooth& tooth, const EdgePiece& piece, const 
   }
 }
 
+/// Walks up a piece along the lowest of the lines, (F23), each of which crosses another once.
+void ForceSensitivity::find_stretches(double tangent, const End& low, const End& high) {
+  const auto smallest = [&](const End& end) {
+    const auto less = [&](const Line& a, const Line& b) { return a.at(end.lag) < b.at(end.lag); };
+    return static_cast<int>(std::min_element(lines_.begin(), lines_.end(), less) - lines_.begin());
+  };
+  // The direction of the middle of the piece, which turns by no more than pi: the sum of its ends
+  // vanishes at pi, their difference at 0.
+  const double sign = hand(tangent);
+  const double cos_middle = low.lag[0] + high.lag[0] + sign * (high.lag[1] - low.lag[1]);
+  const double sin_middle = low.lag[1] + high.lag[1] - sign * (high.lag[0] - low.lag[0]);
+  // Angle from the lower end to where a line that changes its sign is zero.
+  const auto turn_to_zero = [&](const Line& line) {
+    double c = -line.b, s = line.a;
+    if (c * cos_middle + s * sin_middle < 0.0) c = -c, s = -s;
+    return std::atan2(low.lag[0] * s - low.lag[1] * c, low.lag[0] * c + low.lag[1] * s);
+  };
+  const auto height = [&](double turn) {
+    const double lag = edges_.envelope().lag(low.z) + turn / tangent;
+    return std::clamp(edges_.envelope().height_at_lag(lag), low.z, high.z);
+  };
+  stretches_.clear();
+  if (lines_.size() == 1) {
+    stretches_.push_back({{low.z, high.z}, 0});
+    return;
+  }
+  // The part of a stretch in which there is a chip.
+  const auto keep = [&](End from, End to, int reach) {
+    const Line& line = lines_[reach];
+    const double below = line.at(from.lag), above = line.at(to.lag);
+    if (below <= 0.0 && above <= 0.0) return;
+    if (below < 0.0) from.z = std::max(from.z, height(turn_to_zero(line)));
+    if (above < 0.0) to.z = std::min(to.z, height(turn_to_zero(line)));
+    if (from.z < to.z) stretches_.push_back({{from.z, to.z}, reach});
+  };
+  const int last = smallest(high);
+  int now = smallest(low);
+  End from = low;
+  for (std::size_t step = 1; now != last && step < lines_.size(); ++step) {
+    // Only a line that ends below this one crosses it; the first to do so is next.
+    int next = last;
+    double first = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 0; m < lines_.size(); ++m) {
+      const Line apart = lines_[m] - lines_[now];
+      if (!(apart.at(high.lag) < 0.0)) continue;
+      const double turn = turn_to_zero(apart);
+      if (std::abs(turn) < first) first = std::abs(turn), next = static_cast<int>(m);
+    }
+    if (std::isinf(first)) break;  // of equal lines either serves
+    const double z = std::max(from.z, height(sign * first));
+    const End to = end_at(tangent, z);
+    keep(from, to, now);
+    from = to;
+    now = next;
+  }
+  keep(from, high, now);
+}
+
+void ForceSensitivity::find_stretches(const Tooth& tooth, const EdgePiece& piece, double from,
+                                      double to) {
+  find_regimes(edges_, law_, tooth.feed, tooth.flute, piece, tooth.tip_angle, from, to, regimes_);
+  stretches_.clear();
+  for (const Regime& regime : regimes_) {
+    stretches_.push_back({regime, smallest_at(tooth, 0.5 * (regime.bottom + regime.top))});
+  }
+}
+
 void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
   for (std::size_t q = 0; q < edges_.pieces().size(); ++q) {
     const EdgePiece& piece = edges_.pieces()[q];
     const double from = std::max(z1, piece.bottom);
     const double to = std::min(z2, piece.top);
     if (from >= to) continue;
-    const bool whole = from == piece.bottom && to == piece.top;
-    // Most often one reach decides from end to end; each pair crosses once, so the ends tell.
-    int decides = -1;
-    if (by_moments_) {
-      const std::array<double, 2> low =
-          from == piece.bottom ? ends_[q][0] : lag_at(tooth.tangent, from);
-      const std::array<double, 2> high = to == piece.top ? ends_[q][1] : lag_at(tooth.tangent, to);
-      const auto less_at = [](const std::array<double, 2>& lag) {
-        return [&lag](const Line& a, const Line& b) { return a.at(lag) < b.at(lag); };
-      };
-      const auto first = std::min_element(lines_.begin(), lines_.end(), less_at(low));
-      const auto last = std::min_element(lines_.begin(), lines_.end(), less_at(high));
-      if (lines_.size() == 1 || (first == last && first->at(low) > 0.0 && last->at(high) > 0.0)) {
-        decides = static_cast<int>(first - lines_.begin());
-      }
-    }
-    if (decides >= 0) {
-      regimes_.assign(1, {from, to});
+    if (by_lines_) {
+      find_stretches(tooth.tangent,
+                     from == piece.bottom ? ends_[q][0] : end_at(tooth.tangent, from),
+                     to == piece.top ? ends_[q][1] : end_at(tooth.tangent, to));
     } else {
-      find_regimes(edges_, law_, tooth.feed, tooth.flute, piece, tooth.tip_angle, from, to,
-                   regimes_);
+      find_stretches(tooth, piece, from, to);
     }
-    for (std::size_t i = 0; i < regimes_.size(); ++i) {
-      const Regime& regime = regimes_[i];
-      const int reach =
-          decides >= 0 ? decides : smallest_at(tooth, 0.5 * (regime.bottom + regime.top));
+    for (std::size_t i = 0; i < stretches_.size(); ++i) {
+      const auto& [regime, reach] = stretches_[i];
       tooth.follow(reach + 1);
       if (by_moments_) {
-        tooth.add(whole && decides >= 0 ? whole_[q]
-                                        : moments_of(edges_, piece, tooth.tangent, regime.bottom,
-                                                     regime.top, wanted_.slopes),
+        const bool whole = regime.bottom == piece.bottom && regime.top == piece.top;
+        tooth.add(whole ? whole_[q]
+                        : moments_of(edges_, piece, tooth.tangent, regime.bottom, regime.top,
+                                     wanted_.slopes),
                   lines_[reach], wanted_.slopes);
       } else {
         add_by_nodes(tooth, piece, regime);
@@ -304,12 +358,12 @@ void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
       // Where tooth and tooth cross, and where pieces join, what one side loses the other gains.
       if (regime.bottom == from) {
         if (from == z1 && z1 > 0.0) tooth.add_arc_limit(piece, from, -1.0);
-      } else if (i == 0 || regimes_[i - 1].top != regime.bottom) {
+      } else if (i == 0 || stretches_[i - 1].regime.top != regime.bottom) {
         tooth.add_chip_limit(piece, regime.bottom, -1.0);
       }
       if (regime.top == to) {
         if (to == z2 && z2 < edges_.axial_depth()) tooth.add_arc_limit(piece, to, 1.0);
-      } else if (i + 1 == regimes_.size() || regimes_[i + 1].bottom != regime.top) {
+      } else if (i + 1 == stretches_.size() || stretches_[i + 1].regime.bottom != regime.top) {
         tooth.add_chip_limit(piece, regime.top, 1.0);
       }
     }
@@ -348,7 +402,7 @@ Sensitivity ForceSensitivity::at(double angle, double feed_per_tooth,
                 angle + flute.position};
     tooth.offset = offset_;
     tooth.with_exponent = wanted_.size_effect;
-    bool lines_known = !by_moments_;
+    bool lines_known = !by_lines_;
     for_each_engaged_interval(edges_, flute.helix_tangent, arc_, tooth.tip_angle,
                               [&](double z1, double z2) {
                                 if (!lines_known) {

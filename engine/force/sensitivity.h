@@ -70,25 +70,40 @@ class ForceSensitivity {
     double a = 0.0;
     double b = 0.0;
     double at(const std::array<double, 2>& lag) const { return a * lag[0] + b * lag[1]; }
+    Line operator-(const Line& other) const { return {0.0, 0.0, 0.0, a - other.a, b - other.b}; }
+  };
+  /// A regime and the reach that decides over it.
+  struct Stretch {
+    Regime regime;
+    int reach;
+  };
+  /// A height of an edge, and cos and sin of its lag angle.
+  struct End {
+    double z;
+    std::array<double, 2> lag;
   };
   struct Tooth;
   void find_lines(const Tooth& tooth);
   void add_interval(Tooth& tooth, double z1, double z2);
   void add_by_nodes(Tooth& tooth, const EdgePiece& piece, const Regime& regime);
   int smallest_at(const Tooth& tooth, double z);
-  std::array<double, 2> lag_at(double tangent, double z) const;
+  End end_at(double tangent, double z) const;
+  void find_stretches(double tangent, const End& low, const End& high);
+  void find_stretches(const Tooth& tooth, const EdgePiece& piece, double from, double to);
 
   CuttingEdges edges_;
   ChipLaw law_;
   Arc arc_;
   Wanted wanted_;
+  bool by_lines_;                            ///< (F23)
   bool by_moments_;                          ///< (F31)
   std::array<double, 2> offset_{};           ///< of the runout
   std::vector<std::array<double, 2>> tips_;  ///< cos and sin of the positions of the flutes
-  // Of every piece as a whole, where (F31) serves.
-  std::vector<MomentPair> whole_;
-  std::vector<std::array<std::array<double, 2>, 2>> ends_;  ///< cos and sin of the lag at its ends
-  std::vector<Line> lines_;                                 ///< of the flute at hand, by reach
+  // Of every piece as a whole.
+  std::vector<MomentPair> whole_;         ///< where (F31) serves
+  std::vector<std::array<End, 2>> ends_;  ///< where (F23) does
+  std::vector<Line> lines_;               ///< of the flute at hand, by reach
+  std::vector<Stretch> stretches_;        ///< of the piece at hand
   std::vector<Regime> regimes_;
   std::vector<Reach> reaches_;
 };

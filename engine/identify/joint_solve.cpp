@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 #include <cmath>
 #include <limits>
@@ -7,6 +6,7 @@
 
 #include "cutter/cutter.h"
 #include "identify/joint_problem.h"
+#include "identify/scaled_eigen.h"
 
 namespace millstudy::identify {
 namespace {
@@ -22,21 +22,17 @@ struct Compressed {
 
 Compressed compress(const NormalEquations& sums) {
   const Eigen::Index count = sums.gradient.size();
-  Eigen::VectorXd scale = sums.gram.diagonal().cwiseSqrt();
-  for (double& s : scale) s = s > 0.0 ? s : 1.0;
-  const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * sums.gram *
-                                                             inverse.asDiagonal());
+  const ScaledEigen eigen = scaled_eigen(sums.gram);
   Compressed out{Eigen::VectorXd::Zero(count + 1), Eigen::MatrixXd::Zero(count + 1, count)};
   const Eigen::VectorXd turned =
-      eigen.eigenvectors().transpose() * inverse.cwiseProduct(sums.gradient);
+      eigen.vectors.transpose() * eigen.scale.cwiseProduct(sums.gradient);
   const double least = static_cast<double>(count) * 1e-15;
   double explained = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    if (eigen.eigenvalues()[i] < least) continue;
-    const double root = std::sqrt(eigen.eigenvalues()[i]);
+    if (eigen.values[i] < least) continue;
+    const double root = std::sqrt(eigen.values[i]);
     out.residual[i] = turned[i] / root;
-    out.jacobian.row(i) = root * eigen.eigenvectors().col(i).cwiseProduct(scale).transpose();
+    out.jacobian.row(i) = root * eigen.vectors.col(i).cwiseQuotient(eigen.scale).transpose();
     explained += out.residual[i] * out.residual[i];
   }
   out.residual[count] = std::sqrt(std::max(0.0, sums.squares - explained));

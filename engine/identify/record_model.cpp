@@ -15,7 +15,9 @@ namespace {
 
 using Kind = Parameter::Kind;
 
-constexpr std::ptrdiff_t kStretch = 4096;  // samples: the Jacobian of thirty columns fits a cache
+// Samples: the Jacobian of thirty columns fits a cache, and no power of two keeps them from the
+// same places in it.
+constexpr std::ptrdiff_t kStretch = 4000;
 constexpr std::ptrdiff_t kKernelGrain = 256;  // samples that pay for preparing an edge
 
 /// d force / d parameter of the cut itself at one sample.
@@ -77,41 +79,14 @@ class Dynamometer {
   void transmit(Stretch& stretch) {
     const Eigen::Index count = stretch.samples;
     for (std::size_t a = 0; a < axes_.size(); ++a) {
-      const int axis = axes_[a];
       if (modes_[a].empty()) continue;
       const Eigen::Index from = static_cast<Eigen::Index>(a) * count;
-      for (std::size_t c = 0; c < parameters_.size(); ++c) {
-        const auto column = static_cast<Eigen::Index>(c);
-        if (is_mode(parameters_[c]) || is_added(parameters_[c])) continue;
-        for (Eigen::Index row = from; row < from + count; ++row) {
-          double& f = stretch.jacobian(row, column);
-          double sum = f;
-          for (std::size_t m = 0; m < modes_[a].size(); ++m) {
-            const double x = modes_[a][m].filter.next(modes_[a][m].columns[c], f);
-            sum += state_.dynamometer[axis][m].gain * (x - f);
-          }
-          f = sum;
-        }
-      }
-      for (Eigen::Index row = from; row < from + count; ++row) {
-        double& f = stretch.predicted[row];
-        double sum = f;
-        for (std::size_t m = 0; m < modes_[a].size(); ++m) {
-          Mode& mode = modes_[a][m];
-          const double gain = state_.dynamometer[axis][m].gain;
-          const double x = mode.filter.next(mode.force, f);
-          sum += gain * (x - f);
-          for (std::size_t c = 0; c < parameters_.size(); ++c) {
-            const Parameter& p = parameters_[c];
-            if (!is_mode(p) || p.axis != axis || p.index != static_cast<int>(m)) continue;
-            stretch.jacobian(row, static_cast<Eigen::Index>(c)) =
-                p.kind == Kind::mode_gain        ? x - f
-                : p.kind == Kind::mode_frequency ? gain * mode.force.position_by[0]
-                                                 : gain * mode.force.position_by[1];
-          }
-        }
-        f = sum;
-      }
+      tbb::parallel_for(std::size_t{0}, parameters_.size(), [&](std::size_t c) {
+        if (is_mode(parameters_[c]) || is_added(parameters_[c])) return;
+        transmit_column(a, c,
+                        stretch.jacobian.col(static_cast<Eigen::Index>(c)).segment(from, count));
+      });
+      transmit_force(a, stretch);
     }
   }
 
@@ -126,6 +101,42 @@ class Dynamometer {
   /// It is added to the signal, behind the dynamometer.
   static bool is_added(const Parameter& p) {
     return p.kind == Kind::offset || p.kind == Kind::drift;
+  }
+
+  void transmit_column(std::size_t axis, std::size_t c, Eigen::Ref<Eigen::VectorXd> column) {
+    const std::vector<double> force(column.begin(), column.end());
+    for (std::size_t m = 0; m < modes_[axis].size(); ++m) {
+      Mode& mode = modes_[axis][m];
+      mode.filter.add_share(mode.columns[c], state_.dynamometer[axes_[axis]][m].gain, force,
+                            {column.data(), force.size()});
+    }
+  }
+
+  /// The force, and its derivatives by what the modes are.
+  void transmit_force(std::size_t axis, Stretch& stretch) {
+    const Eigen::Index count = stretch.samples;
+    const Eigen::Index from = static_cast<Eigen::Index>(axis) * count;
+    const Eigen::VectorXd force = stretch.predicted.segment(from, count);
+    for (std::size_t m = 0; m < modes_[axis].size(); ++m) {
+      Mode& mode = modes_[axis][m];
+      const double gain = state_.dynamometer[axes_[axis]][m].gain;
+      std::array<double*, 3> by{};  // gain, frequency, damping
+      for (std::size_t c = 0; c < parameters_.size(); ++c) {
+        const Parameter& p = parameters_[c];
+        if (!is_mode(p) || p.axis != axes_[axis] || p.index != static_cast<int>(m)) continue;
+        by[p.kind == Kind::mode_gain        ? 0
+           : p.kind == Kind::mode_frequency ? 1
+                                            : 2] =
+            &stretch.jacobian(from, static_cast<Eigen::Index>(c));
+      }
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const double past_force = mode.filter.next(mode.force, force[i]);
+        stretch.predicted[from + i] += gain * past_force;
+        if (by[0]) by[0][i] = past_force;
+        if (by[1]) by[1][i] = gain * mode.force.position_by[0];
+        if (by[2]) by[2][i] = gain * mode.force.position_by[1];
+      }
+    }
   }
 
   struct Mode {

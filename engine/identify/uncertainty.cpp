@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "identify/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
 #include "core/units.h"
+#include "identify/scaled_eigen.h"
 
 namespace millstudy::identify {
 namespace {
@@ -18,14 +18,11 @@ using Eigen::VectorXd;
 /// Inverse of a symmetric matrix, directions without information left out.
 MatrixXd inverse_of(const MatrixXd& matrix) {
   if (matrix.rows() == 0) return matrix;
-  VectorXd scale = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
-  for (double& s : scale) s = s > 0.0 ? 1.0 / s : 1.0;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * matrix *
-                                                      scale.asDiagonal());
-  const double least = 1e-13 * std::max(1e-300, eigen.eigenvalues().cwiseAbs().maxCoeff());
-  VectorXd inverse = eigen.eigenvalues();
+  const ScaledEigen eigen = scaled_eigen(matrix);
+  const double least = 1e-13 * std::max(1e-300, eigen.values.cwiseAbs().maxCoeff());
+  VectorXd inverse = eigen.values;
   for (double& value : inverse) value = value > least ? 1.0 / value : 0.0;
-  const MatrixXd turned = scale.asDiagonal() * eigen.eigenvectors();
+  const MatrixXd turned = eigen.scale.asDiagonal() * eigen.vectors;
   return turned * inverse.asDiagonal() * turned.transpose();
 }
 
@@ -181,19 +178,11 @@ Uncertainty uncertainty(const JointProblem& problem, double prior_noise) {
     const Parameter& p = problem.shared()[i];
     if (p.kind == Parameter::Kind::coefficient && p.index < 6) coefficients.push_back(i);
   }
-  MatrixXd scaled(coefficients.size(), coefficients.size());
-  for (std::size_t a = 0; a < coefficients.size(); ++a) {
-    for (std::size_t b = 0; b < coefficients.size(); ++b) {
-      const Index i = coefficients[a], j = coefficients[b];
-      scaled(a, b) = coefficient_gram(i, j) /
-                     std::sqrt(std::max(1e-300, coefficient_gram(i, i) * coefficient_gram(j, j)));
-    }
-  }
   if (!coefficients.empty()) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-    const double low = eigen.eigenvalues().minCoeff(), high = eigen.eigenvalues().maxCoeff();
+    const ScaledEigen eigen = scaled_eigen(coefficient_gram(coefficients, coefficients));
+    const double low = eigen.values.minCoeff(), high = eigen.values.maxCoeff();
     out.condition_number = low > 1e-15 * high ? std::sqrt(high / low) : 1e8;
-    out.weakest = eigen.eigenvectors().col(0);
+    out.weakest = eigen.vectors.col(0);
   }
   return out;
 }

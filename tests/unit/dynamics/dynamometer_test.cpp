@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "core/error.h"
@@ -22,7 +23,7 @@ std::vector<double> response(const Mode& mode, const std::vector<double>& force,
   const ModeFilter filter(mode, interval);
   ModeFilter::State state;
   std::vector<double> out;
-  for (const double f : force) out.push_back(filter.next(state, f));
+  for (const double f : force) out.push_back(f + filter.next(state, f));
   return out;
 }
 
@@ -73,6 +74,22 @@ TEST(ModeFilter, IsLinearAndForgetsWhenItBegan) {
   const auto late = response(kMode, std::vector<double>(a.begin() + 1000, a.end()));
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(xb[i], 2.0 * xa[i] + xs[i], 1e-12);
   for (std::size_t i = 2700; i < a.size(); ++i) EXPECT_NEAR(xa[i], late[i - 1000], 1e-12);
+}
+
+TEST(ModeFilter, AddsItsShareOfARunWhereverTheRunIsCut) {
+  const std::vector<double> force = noise(500), x = response(kMode, force);
+  const ModeFilter filter(kMode, kInterval);
+  ModeFilter::State state;
+  std::vector<double> signal = force;
+  const std::span<const double> whole = force;
+  const std::span<double> out = signal;
+  for (std::size_t from = 0, size = 1; from < whole.size(); from += size, size *= 3) {
+    size = std::min(size, whole.size() - from);
+    filter.add_share(state, 0.7, whole.subspan(from, size), out.subspan(from, size));
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    EXPECT_NEAR(signal[i], force[i] + 0.7 * (x[i] - force[i]), 1e-14);
+  }
 }
 
 TEST(ModeFilter, HasTheAmplitudeOfItsTransferFunction) {
