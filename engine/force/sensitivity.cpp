@@ -24,6 +24,10 @@ struct ChipAt {
   double lag;  ///< along the edge
 };
 
+std::array<double, 2> direction(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
 }  // namespace
 
 /// One edge at one spindle angle under one reach.
@@ -35,9 +39,11 @@ struct ForceSensitivity::Tooth {
   int flute;
   double tip_angle;
 
-  // The tooth that left the surface.
+  const std::vector<std::array<double, 2>>& tips;  ///< cos and sin of the positions of the flutes
   double tangent = edges.flutes()[flute].helix_tangent;
   double position = edges.flutes()[flute].position;
+  // The tooth that left the surface.
+  int other = 0;
   double other_tangent = 0.0;
   double other_position = 0.0;     ///< ahead of flute 0, more than `position`
   std::array<double, 2> offset{};  ///< of the runout
@@ -49,18 +55,27 @@ struct ForceSensitivity::Tooth {
   void follow(int m) {
     const std::vector<cutter::Flute>& flutes = edges.flutes();
     const auto count = static_cast<int>(flutes.size());
-    const cutter::Flute& other = flutes[(flute + m) % count];
-    other_tangent = other.helix_tangent;
-    other_position = other.position + (flute + m >= count ? core::kTurn : 0.0);
+    other = (flute + m) % count;
+    other_tangent = flutes[other].helix_tangent;
+    other_position = flutes[other].position + (flute + m >= count ? core::kTurn : 0.0);
   }
 
-  ChipAt chip(double lag, double sin_phi, double cos_phi) const {
+  /// cos and sin of an angle less the lag angle.
+  static std::array<double, 2> behind(double cosine, double sine,
+                                      const std::array<double, 2>& lag) {
+    return {cosine * lag[0] + sine * lag[1], sine * lag[0] - cosine * lag[1]};
+  }
+
+  ChipAt chip(double lag, const std::array<double, 2>& own_lag, double sin_phi,
+              double cos_phi) const {
     const double per_turn = static_cast<double>(edges.flutes().size()) / core::kTurn;
     const double own = position - tangent * lag;
     const double before = other_position - other_tangent * lag;
     const double ratio = per_turn * (before - own);
-    const double own_cos = std::cos(own), own_sin = std::sin(own);
-    const double before_cos = std::cos(before), before_sin = std::sin(before);
+    const auto [own_cos, own_sin] = behind(tips[flute][0], tips[flute][1], own_lag);
+    const auto [before_cos, before_sin] =
+        behind(tips[other][0], tips[other][1],
+               other_tangent == tangent ? own_lag : direction(other_tangent * lag));
     ChipAt at;
     at.runout = {own_cos - before_cos, own_sin - before_sin};
     at.feed = ratio * sin_phi;
@@ -77,19 +92,21 @@ struct ForceSensitivity::Tooth {
     return coefficients.k[column] + coefficients.k[6 + column] * z;
   }
 
-  /// (F18)
-  double size_effect(double h) const {
-    const double m = coefficients.size_exponent;
-    return m == 0.0 ? 1.0 : std::pow(h / coefficients.reference_chip_thickness, -m);
+  /// ln(h / h0), of which (F18) is the exponential.
+  double log_of(double h) const {
+    return with_exponent ? std::log(h / coefficients.reference_chip_thickness) : 0.0;
+  }
+  double size_effect(double log_size) const {
+    return with_exponent ? std::exp(-coefficients.size_exponent * log_size) : 1.0;
   }
 
   void add(const EdgeNode& node) {
-    const double phi = tip_angle - tangent * node.lag;
-    const double sin_phi = std::sin(phi), cos_phi = std::cos(phi);
-    const ChipAt at = chip(node.lag, sin_phi, cos_phi);
+    const std::array<double, 2> lag = direction(tangent * node.lag);
+    const auto [cos_phi, sin_phi] = behind(cos_tip, sin_tip, lag);
+    const ChipAt at = chip(node.lag, lag, sin_phi, cos_phi);
     const double h = at.value * node.sin_kappa;
     if (h <= 0.0) return;
-    const double size = size_effect(h);
+    const double log_size = log_of(h), size = size_effect(log_size);
     const double area = size * h * node.width;
     const double per_chip = size * (1.0 - coefficients.size_exponent) * node.width * node.sin_kappa;
     const Matrix43<double> axes =
@@ -112,8 +129,6 @@ struct ForceSensitivity::Tooth {
       }
     }
     const std::array<double, 3> turned = {force[1], -force[0], 0.0};  // d axes / d phi
-    const double log_size =
-        with_exponent ? std::log(h / coefficients.reference_chip_thickness) : 0.0;
     for (int row = 0; row < 3; ++row) {
       const double growth = grown[row] * per_chip;
       sum.force[row] += force[row];
@@ -167,11 +182,11 @@ struct ForceSensitivity::Tooth {
   Density density(const EdgePiece& piece, double z) const {
     Density out;
     const EdgeNode node = edges.node(piece, tangent, CuttingEdges::variable(piece, z), 1.0);
-    const double phi = tip_angle - tangent * node.lag;
-    const double sin_phi = std::sin(phi), cos_phi = std::cos(phi);
-    out.chip = chip(node.lag, sin_phi, cos_phi);
+    const std::array<double, 2> lag = direction(tangent * node.lag);
+    const auto [cos_phi, sin_phi] = behind(cos_tip, sin_tip, lag);
+    out.chip = chip(node.lag, lag, sin_phi, cos_phi);
     const double h = std::max(0.0, out.chip.value * node.sin_kappa);
-    const double area = h == 0.0 ? 0.0 : size_effect(h) * h * node.width;
+    const double area = h == 0.0 ? 0.0 : size_effect(log_of(h)) * h * node.width;
     const Matrix43<double> axes =
         edge_axes(sin_phi, cos_phi, node.sin_kappa, node.cos_kappa, node.radius);
     for (int row = 0; row < 3; ++row) {
@@ -224,7 +239,7 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
   const cutter::Runout& runout = cutter.runout;
   offset_ = {runout.offset * std::cos(runout.angle), runout.offset * std::sin(runout.angle)};
   for (const cutter::Flute& flute : edges_.flutes()) {
-    tips_.push_back({std::cos(flute.position), std::sin(flute.position)});
+    tips_.push_back(direction(flute.position));
   }
   if (!by_lines_) return;
   const double tangent = edges_.flutes().front().helix_tangent;
@@ -236,8 +251,7 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
 }
 
 ForceSensitivity::End ForceSensitivity::end_at(double tangent, double z) const {
-  const double lag = tangent * edges_.envelope().lag(z);
-  return {z, {std::cos(lag), std::sin(lag)}};
+  return {z, direction(tangent * edges_.envelope().lag(z))};
 }
 
 /// The reach that decides the chip at a height.
@@ -370,8 +384,11 @@ void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
   }
 }
 
-/// (F23) for the flute at hand: what does not change along its edge.
-void ForceSensitivity::find_lines(const Tooth& tooth) {
+/// What does not change along the edge of the flute at hand, (F23) where it holds.
+void ForceSensitivity::begin(Tooth& tooth) {
+  tooth.sin_tip = std::sin(tooth.tip_angle);
+  tooth.cos_tip = std::cos(tooth.tip_angle);
+  if (!by_lines_) return;
   const std::vector<cutter::Flute>& flutes = edges_.flutes();
   const auto count = static_cast<int>(flutes.size());
   const double own = flutes[tooth.flute].position;
@@ -399,18 +416,15 @@ Sensitivity ForceSensitivity::at(double angle, double feed_per_tooth,
                 sum,
                 {feed_per_tooth, 0.0, 0.0},
                 static_cast<int>(j),
-                angle + flute.position};
+                angle + flute.position,
+                tips_};
     tooth.offset = offset_;
     tooth.with_exponent = wanted_.size_effect;
-    bool lines_known = !by_lines_;
+    bool begun = false;
     for_each_engaged_interval(edges_, flute.helix_tangent, arc_, tooth.tip_angle,
                               [&](double z1, double z2) {
-                                if (!lines_known) {
-                                  tooth.sin_tip = std::sin(tooth.tip_angle);
-                                  tooth.cos_tip = std::cos(tooth.tip_angle);
-                                  find_lines(tooth);
-                                  lines_known = true;
-                                }
+                                if (!begun) begin(tooth);
+                                begun = true;
                                 add_interval(tooth, z1, z2);
                               });
   }

@@ -83,7 +83,7 @@ class ForceSensitivity {
     std::array<double, 2> lag;
   };
   struct Tooth;
-  void find_lines(const Tooth& tooth);
+  void begin(Tooth& tooth);
   void add_interval(Tooth& tooth, double z1, double z2);
   void add_by_nodes(Tooth& tooth, const EdgePiece& piece, const Regime& regime);
   int smallest_at(const Tooth& tooth, double z);
