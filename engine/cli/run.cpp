@@ -43,6 +43,7 @@ class FailureTally : public sweep::Sink {
     }
     sink_.write(block);
   }
+  void leave_out(std::int64_t first, std::int64_t count) override { sink_.leave_out(first, count); }
   void finish(const std::vector<sweep::Attribute>& attributes) override {
     sink_.finish(attributes);
   }

@@ -82,6 +82,21 @@ class ChunkStream {
     }
   }
 
+  /// The same as so many fill values, of which whole chunks are passed over. Not of one that grows.
+  void leave_out(std::int64_t count) {
+    while (count > 0) {
+      const std::int64_t room = end() - next_ - static_cast<std::int64_t>(held_.size());
+      const std::int64_t taken = std::min(count, room);
+      if (held_.empty() && taken == room) {
+        next_ += taken;
+      } else {
+        held_.insert(held_.end(), static_cast<std::size_t>(taken), fill_);
+        if (taken == room) flush();
+      }
+      count -= taken;
+    }
+  }
+
   /// Writes what is held back.
   void flush() {
     if (held_.empty()) return;

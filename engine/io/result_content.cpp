@@ -47,6 +47,16 @@ void ResultContent::append(const sweep::Block& block) {
   for (TraceVariables& traces : variables_.traces) traces.append(block);
 }
 
+void ResultContent::leave_out(std::int64_t count) {
+  for (ChunkStream<double>& column : variables_.columns) column.leave_out(count);
+  variables_.status.leave_out(count);
+  variables_.failure_code.leave_out(count);
+  for (TraceVariables& traces : variables_.traces) {
+    traces.start.leave_out(count);
+    traces.count.leave_out(count);
+  }
+}
+
 void ResultContent::finish(const std::vector<sweep::Attribute>& attributes) {
   for (ChunkStream<double>& column : variables_.columns) column.flush();
   variables_.status.flush();

@@ -23,6 +23,8 @@ class ResultContent {
 
   /// The next points, wherever they were first.
   void append(const sweep::Block& block);
+  /// In their place, so many points that are not run.
+  void leave_out(std::int64_t count);
   /// Writes what is held back, the reasons of failures, and attributes that replace those of the
   /// same name.
   void finish(const std::vector<sweep::Attribute>& attributes);

@@ -23,9 +23,15 @@ class ResultWriter final : public sweep::Sink {
   ~ResultWriter() override { close(); }
 
   void write(const sweep::Block& block) override {
-    if (block.first != next_point_) throw std::logic_error("blocks must come in order");
+    begin(block.first);
     guarded([&] { content_->append(block); });
     next_point_ += block.count;
+  }
+
+  void leave_out(std::int64_t first, std::int64_t count) override {
+    begin(first);
+    guarded([&] { content_->leave_out(count); });
+    next_point_ += count;
   }
 
   void finish(const std::vector<sweep::Attribute>& attributes) override {
@@ -37,6 +43,10 @@ class ResultWriter final : public sweep::Sink {
   }
 
  private:
+  void begin(std::int64_t first) const {
+    if (first != next_point_) throw std::logic_error("blocks must come in order");
+  }
+
   /// Whatever HDF5 cannot do with our own new file is the disk's fault, and final.
   template <class Action>
   void guarded(const Action& action) {

@@ -215,16 +215,10 @@ Remainder remainder(const Journal& journal) {
 
 void replay(const Journal& journal, Sink& sink) {
   const JournalHeader& header = journal.contents().header;
-  const auto not_run = [&](std::int64_t from, std::int64_t to) {
-    constexpr std::int64_t kAtOnce = 1 << 16;
-    for (std::int64_t first = from; first < to; first += kAtOnce) {
-      sink.write({first, std::min(kAtOnce, to - first), static_cast<std::size_t>(header.columns),
-                  header.traces});
-    }
-  };
-  not_run(0, header.first);
+  const std::int64_t end = header.first + header.count;
+  sink.leave_out(0, header.first);
   for (std::int64_t block = 0; block < header.blocks(); ++block) sink.write(journal.read(block));
-  not_run(header.first + header.count, header.points);
+  sink.leave_out(end, header.points - end);
 }
 
 }  // namespace millstudy::sweep

@@ -37,12 +37,9 @@ class ResultBlocksTest : public testing::Test {
   void write(sweep::Layout layout, const Part& part) const {
     layout.points_here = part.end - part.first;
     const auto writer = make_result_writer(path_, layout);
-    const auto write_not_run = [&](std::int64_t count, std::int64_t first) {
-      writer->write(sweep::Block(first, count, layout.columns.size(), layout.traces));
-    };
-    if (part.first > 0) write_not_run(part.first, 0);
+    writer->leave_out(0, part.first);
     writer->write(sample::block(layout, part.first, part.end - part.first));
-    if (part.end < layout.points()) write_not_run(layout.points() - part.end, part.end);
+    writer->leave_out(part.end, layout.points() - part.end);
     writer->finish({});
   }
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <sys/resource.h>
 #include <thread>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/resource_error.h"
@@ -64,6 +65,11 @@ std::vector<T> read(const hdf5::Handle& file, const std::string& name, hid_t typ
   std::vector<T> values(static_cast<std::size_t>(element_count(shape)));
   hdf5::read_range(dataset.get(), type, shape, 0, element_count(shape), values.data());
   return values;
+}
+
+std::string read_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 std::vector<std::string> read_failures(const hdf5::Handle& file) {
@@ -147,13 +153,42 @@ TEST_F(ResultWriter, KeepsTraces) {
   }
 }
 
+TEST_F(ResultWriter, LeavesOutPointsAsIfTheyWereNotRun) {
+  for (const auto& [shape, first, end] :
+       {std::tuple<Shape, std::int64_t, std::int64_t>{{20000}, 7000, 13001},
+        {{3, 70001}, 0, 5000},
+        {{40, 3, 500}, 59999, 60000},
+        {{6, 11}, 60, 66}}) {
+    for (const bool traces : {false, true}) {
+      sweep::Layout layout = sample::layout(shape, Design::grid, traces && end - first < 100);
+      layout.points_here = end - first;
+      const std::int64_t rest = layout.points() - end;
+      std::vector<std::string> contents;
+      for (const bool leaves_out : {false, true}) {
+        const auto writer = make_result_writer(path_, layout);
+        const auto pass = [&](std::int64_t from, std::int64_t count) {
+          if (leaves_out) return writer->leave_out(from, count);
+          if (count == 0) return;
+          writer->write(sweep::Block(from, count, layout.columns.size(), layout.traces));
+        };
+        pass(0, first);
+        writer->write(sample::block(layout, first, end - first));
+        pass(end, rest);
+        EXPECT_THROW(writer->leave_out(0, 1), std::logic_error);
+        writer->finish({});
+        contents.push_back(read_bytes(path_));
+      }
+      EXPECT_TRUE(contents[0] == contents[1]) << first << " to " << end;
+    }
+  }
+}
+
 TEST_F(ResultWriter, DoesNotDependOnTheSizeOfBlocks) {
   const sweep::Layout layout = sample::layout({4, 30, 20}, Design::grid, true);
   std::vector<std::string> contents;
   for (const std::int64_t size : {1, 17, 100000}) {
     write(layout, {size});
-    std::ifstream file(path_, std::ios::binary);
-    contents.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    contents.push_back(read_bytes(path_));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));  // no times of day inside
   }
   EXPECT_EQ(contents[0], contents[1]);

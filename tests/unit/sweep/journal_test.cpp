@@ -283,6 +283,10 @@ TEST_F(JournalTest, IsReplayedInOrderWithWhatIsOfOthers) {
       EXPECT_EQ(block.first, static_cast<std::int64_t>(status.size()));
       status.insert(status.end(), block.status.begin(), block.status.end());
     }
+    void leave_out(std::int64_t first, std::int64_t count) override {
+      EXPECT_EQ(first, static_cast<std::int64_t>(status.size()));
+      status.insert(status.end(), static_cast<std::size_t>(count), Status::not_run);
+    }
     void finish(const std::vector<Attribute>&) override {}
     std::vector<Status> status;
   } sink;
