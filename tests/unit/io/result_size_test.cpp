@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include "io/result_writer.h"
 #include "io/sample_results.h"
@@ -18,6 +19,8 @@ struct Case {
   std::vector<std::int64_t> shape;
   Design design;
   bool traces;
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 std::string name_of(const testing::TestParamInfo<Case>& one) {
