@@ -162,7 +162,7 @@ TEST(ForceSensitivity, HasTheForceOfTheOtherKernel) {
     worst = std::max(worst, size(wrong) / size(reference));
   }
   std::printf("worst force: %.1e\n", worst);
-  EXPECT_LT(worst, 1e-10);
+  EXPECT_LT(worst, 1e-12);
 }
 
 TEST(ForceSensitivity, IsTheDerivativeOfTheForce) {
