@@ -37,50 +37,6 @@ bool is_ascii(char c) {
   return (static_cast<unsigned char>(c) & 0x80) == 0;
 }
 
-/// Knows where a quote starts a text: where a key or a value begins. Elsewhere it belongs to what
-/// stands before it, and the parser reads on through it: as in 1.5'N.
-class Place {
- public:
-  bool starts_text() const {
-    if (in_value_) return !has_begun_;
-    return std::string_view("\n\r[{,.").find(last_) != std::string_view::npos;
-  }
-
-  void pass_text() { pass('"'); }
-
-  void pass(char c) {
-    const bool starts_value = in_value_ && !has_begun_;
-    has_begun_ = has_begun_ || (in_value_ && !is_space(c));
-    if (c == '\n') {
-      enter(!open_.empty());
-    } else if (c == '=' && !in_value_) {
-      enter(true);
-    } else if ((c == '[' || c == '{') && starts_value) {
-      open_ += c;
-      enter(c == '[');
-    } else if (c == ',' && !open_.empty()) {
-      enter(open_.back() == '[');
-    } else if ((c == ']' || c == '}') && !open_.empty()) {
-      open_.pop_back();
-      in_value_ = has_begun_ = true;  // what follows belongs to it
-    }
-    if (!is_space(c)) last_ = c;
-  }
-
- private:
-  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-  void enter(bool value) {
-    in_value_ = value;
-    has_begun_ = false;
-  }
-
-  bool in_value_ = false;
-  bool has_begun_ = false;  ///< the value
-  std::string open_;        ///< brackets of arrays and tables within values
-  char last_ = '\n';        ///< that is no space
-};
-
 /// What to do about the character beyond ASCII that starts the text.
 std::string about_character(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -109,15 +65,13 @@ std::string about_character(std::string_view text) {
 std::optional<Stumble> find_stumble(std::string_view toml, int most_key_parts) {
   int line = 1;
   int parts = 1;
-  Place place;
   for (std::size_t i = toml.starts_with("\xef\xbb\xbf") ? 3 : 0; i < toml.size();) {
     const char c = toml[i];
-    if ((c == '"' || c == '\'') && place.starts_text()) {
+    if (c == '"' || c == '\'') {
       const std::size_t end = std::min(skip_string(toml, i), toml.size());
       line += static_cast<int>(std::count(toml.begin() + static_cast<std::ptrdiff_t>(i),
                                           toml.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
       i = end;
-      place.pass_text();
       continue;
     }
     if (c == '#') {
@@ -133,7 +87,6 @@ std::optional<Stumble> find_stumble(std::string_view toml, int most_key_parts) {
       parts = 1;
     }
     if (c == '\n') ++line;
-    place.pass(c);
     ++i;
   }
   return std::nullopt;

@@ -17,8 +17,8 @@ struct Stumble {
 /// - a dotted key of more than `most_key_parts` parts. Each part is one more level of tables, and
 ///   trees are destroyed recursively: a key of 1e5 parts would overflow the stack in the parser's
 ///   own destructor.
-/// - a character beyond ASCII outside texts and comments. TOML has no place for one, and toml++
-///   tells the compiler that a header never holds one: what follows is undefined.
+/// - a character beyond ASCII outside texts and comments. TOML has no place for one, and it is
+///   mostly one that looks like what is meant.
 /// A byte order mark at the start is passed over.
 std::optional<Stumble> find_stumble(std::string_view toml, int most_key_parts);
 
