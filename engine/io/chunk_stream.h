@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <bitset>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -84,10 +85,11 @@ class ChunkStream {
 
   /// The same as so many fill values, of which whole chunks are passed over. Not of one that grows.
   void leave_out(std::int64_t count) {
+    assert(!unlimited_);
     while (count > 0) {
       const std::int64_t room = end() - next_ - static_cast<std::int64_t>(held_.size());
       const std::int64_t taken = std::min(count, room);
-      if (held_.empty() && taken == room) {
+      if (held_.empty() && taken == room && !shape_.empty()) {
         next_ += taken;
       } else {
         held_.insert(held_.end(), static_cast<std::size_t>(taken), fill_);

@@ -2,6 +2,7 @@
 #include "sweep/block.h"
 
 #include <limits>
+#include <stdexcept>
 
 namespace millstudy::sweep {
 
@@ -14,5 +15,9 @@ Block::Block(std::int64_t first_point, std::int64_t point_count, std::size_t col
       status(point_count, Status::not_run),
       failures(point_count),
       traces(with_traces ? point_count : 0) {}
+
+void Sink::leave_out(std::int64_t /*first*/, std::int64_t count) {
+  if (count > 0) throw std::logic_error("this sink needs all points");
+}
 
 }  // namespace millstudy::sweep

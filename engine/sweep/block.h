@@ -45,7 +45,8 @@ class Sink {
   virtual ~Sink() = default;
   virtual void write(const Block& block) = 0;
   /// In place of blocks: these points are of other parts of the study, and nothing is said of them.
-  virtual void leave_out(std::int64_t /*first*/, std::int64_t /*count*/) {}
+  /// Unless a sink says otherwise, it takes no parts: then it may be asked for no points only.
+  virtual void leave_out(std::int64_t first, std::int64_t count);
   /// All blocks are in; adds what is known only now (wall time, counts) and makes the result final.
   virtual void finish(const std::vector<Attribute>& attributes) = 0;
 };

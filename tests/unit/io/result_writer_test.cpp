@@ -158,7 +158,8 @@ TEST_F(ResultWriter, LeavesOutPointsAsIfTheyWereNotRun) {
        {std::tuple<Shape, std::int64_t, std::int64_t>{{20000}, 7000, 13001},
         {{3, 70001}, 0, 5000},
         {{40, 3, 500}, 59999, 60000},
-        {{6, 11}, 60, 66}}) {
+        {{6, 11}, 60, 66},
+        {{}, 0, 0}}) {
     for (const bool traces : {false, true}) {
       sweep::Layout layout = sample::layout(shape, Design::grid, traces && end - first < 100);
       layout.points_here = end - first;
