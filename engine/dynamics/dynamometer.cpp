@@ -47,13 +47,13 @@ ModeFilter::ModeFilter(const Mode& mode, double sampling_interval)
 void ModeFilter::add_share(State& state, double gain, std::span<const double> force,
                            std::span<double> signal) const {
   State now = state;
-  for (std::size_t i = 0; i < force.size(); ++i) signal[i] += gain * next(now, force[i]);
+  for (std::size_t i = 0; i < force.size(); ++i) signal[i] += gain * next_deviation(now, force[i]);
   state = now;
 }
 
-double ModeFilter::next(GradientState& gradient, double force) const {
+double ModeFilter::next_deviation(GradientState& gradient, double force) const {
   State& state = gradient.state;
-  if (!state.begun) return next(state, force);
+  if (!state.begun) return next_deviation(state, force);
   const double slope = (force - state.force) * rate_;
   const double x = state.position + lag_ * (slope - state.slope);
   const double v = state.velocity - (slope - state.slope);
@@ -65,7 +65,7 @@ double ModeFilter::next(GradientState& gradient, double force) const {
     gradient.position_by[q] = step_.xx * dx + step_.xv * dv + by.xx * x + by.xv * v - trail;
     gradient.velocity_by[q] = step_.vx * dx + step_.vv * dv + by.vx * x + by.vv * v;
   }
-  return next(state, force);
+  return next_deviation(state, force);
 }
 
 }  // namespace millstudy::dynamics

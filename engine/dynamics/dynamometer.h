@@ -17,8 +17,8 @@ struct DynamometerMode {
 /// (D40): signal over force at a frequency [rad/s]; 1 at 0 whatever the gains.
 std::complex<double> transfer(std::span<const DynamometerMode> modes, double frequency);
 
-/// Displacement of a mode over its static one, sample by sample, (D41): exact for a force that goes
-/// in straight lines from sample to sample.
+/// How far a mode is from its static displacement, sample by sample, (D41): exact for a force that
+/// goes in straight lines from sample to sample.
 ///
 /// Against the analytic response to such a force: 1e-14 (measured over 400 random samples).
 class ModeFilter {
@@ -34,8 +34,9 @@ class ModeFilter {
     double position = 0.0;  ///< less that of a mode that follows the ramp for ever
     double velocity = 0.0;  ///< likewise
   };
-  /// @return position after the next sample less the force, in the unit of the force
-  double next(State& state, double force) const {
+  /// @return displacement over the static one less the force, at the next sample [unit of the
+  /// force]
+  double next_deviation(State& state, double force) const {
     if (!state.begun) {
       state = {true, force};
       return 0.0;
@@ -57,7 +58,7 @@ class ModeFilter {
     double position_by[2] = {0.0, 0.0};
     double velocity_by[2] = {0.0, 0.0};
   };
-  double next(GradientState& gradient, double force) const;
+  double next_deviation(GradientState& gradient, double force) const;
 
  private:
   struct Step {

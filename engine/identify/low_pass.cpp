@@ -30,13 +30,26 @@ std::vector<double> low_pass(std::span<const double> signal, double frequency, d
     sum += weights[i];
   }
   for (double& w : weights) w /= sum;
-  std::vector<double> out;
-  out.reserve((signal.size() - length) / step + 1);
-  for (std::size_t i = 0; i + length <= signal.size(); i += step) {
+  const std::size_t count = (signal.size() - length) / step + 1;
+  std::vector<double> out(count);
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) {  // together, for each sum waits for itself
+    const double* x = &signal[i * step];
+    double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+#pragma omp simd reduction(+ : a, b, c, d)
+    for (std::size_t k = 0; k < length; ++k) {
+      a += weights[k] * x[k];
+      b += weights[k] * x[k + step];
+      c += weights[k] * x[k + 2 * step];
+      d += weights[k] * x[k + 3 * step];
+    }
+    out[i] = a, out[i + 1] = b, out[i + 2] = c, out[i + 3] = d;
+  }
+  for (; i < count; ++i) {
     double sum_here = 0.0;
 #pragma omp simd reduction(+ : sum_here)
-    for (std::size_t k = 0; k < length; ++k) sum_here += weights[k] * signal[i + k];
-    out.push_back(sum_here);
+    for (std::size_t k = 0; k < length; ++k) sum_here += weights[k] * signal[i * step + k];
+    out[i] = sum_here;
   }
   return out;
 }

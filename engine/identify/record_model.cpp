@@ -2,6 +2,7 @@
 #include "identify/record_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -103,36 +104,36 @@ class Dynamometer {
     return p.kind == Kind::offset || p.kind == Kind::drift;
   }
 
-  void transmit_column(std::size_t axis, std::size_t c, Eigen::Ref<Eigen::VectorXd> column) {
+  void transmit_column(std::size_t a, std::size_t c, Eigen::Ref<Eigen::VectorXd> column) {
     const std::vector<double> force(column.begin(), column.end());
-    for (std::size_t m = 0; m < modes_[axis].size(); ++m) {
-      Mode& mode = modes_[axis][m];
-      mode.filter.add_share(mode.columns[c], state_.dynamometer[axes_[axis]][m].gain, force,
+    for (std::size_t m = 0; m < modes_[a].size(); ++m) {
+      Mode& mode = modes_[a][m];
+      mode.filter.add_share(mode.columns[c], state_.dynamometer[axes_[a]][m].gain, force,
                             {column.data(), force.size()});
     }
   }
 
   /// The force, and its derivatives by what the modes are.
-  void transmit_force(std::size_t axis, Stretch& stretch) {
+  void transmit_force(std::size_t a, Stretch& stretch) {
     const Eigen::Index count = stretch.samples;
-    const Eigen::Index from = static_cast<Eigen::Index>(axis) * count;
+    const Eigen::Index from = static_cast<Eigen::Index>(a) * count;
     const Eigen::VectorXd force = stretch.predicted.segment(from, count);
-    for (std::size_t m = 0; m < modes_[axis].size(); ++m) {
-      Mode& mode = modes_[axis][m];
-      const double gain = state_.dynamometer[axes_[axis]][m].gain;
+    for (std::size_t m = 0; m < modes_[a].size(); ++m) {
+      Mode& mode = modes_[a][m];
+      const double gain = state_.dynamometer[axes_[a]][m].gain;
       std::array<double*, 3> by{};  // gain, frequency, damping
       for (std::size_t c = 0; c < parameters_.size(); ++c) {
         const Parameter& p = parameters_[c];
-        if (!is_mode(p) || p.axis != axes_[axis] || p.index != static_cast<int>(m)) continue;
+        if (!is_mode(p) || p.axis != axes_[a] || p.index != static_cast<int>(m)) continue;
         by[p.kind == Kind::mode_gain        ? 0
            : p.kind == Kind::mode_frequency ? 1
                                             : 2] =
             &stretch.jacobian(from, static_cast<Eigen::Index>(c));
       }
       for (Eigen::Index i = 0; i < count; ++i) {
-        const double past_force = mode.filter.next(mode.force, force[i]);
-        stretch.predicted[from + i] += gain * past_force;
-        if (by[0]) by[0][i] = past_force;
+        const double deviation = mode.filter.next_deviation(mode.force, force[i]);
+        stretch.predicted[from + i] += gain * deviation;
+        if (by[0]) by[0][i] = deviation;
         if (by[1]) by[1][i] = gain * mode.force.position_by[0];
         if (by[2]) by[2][i] = gain * mode.force.position_by[1];
       }

@@ -110,8 +110,8 @@ Trace synthetic_trace(const cutter::Cutter& cutter, const force::Engagement& eng
     for (int axis = 0; axis < 3; ++axis) {
       double signal = sum[axis];
       for (std::size_t k = 0; k < filters[axis].size(); ++k) {
-        const double past_force = filters[axis][k].next(states[axis][k], sum[axis]);
-        signal += m.dynamometer[axis][k].gain * past_force;
+        const double deviation = filters[axis][k].next_deviation(states[axis][k], sum[axis]);
+        signal += m.dynamometer[axis][k].gain * deviation;
       }
       if (i >= 0) trace.force[axis].push_back(signal + m.offset[axis] + m.drift[axis] * time);
     }

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "force/sensitivity.h"
+#include "identify/joint_problem.h"
 #include "unit/identify/synthetic_record.h"
 
 namespace millstudy::identify {
@@ -149,6 +150,46 @@ TEST(Fit, IsTheSameForAnyNumberOfThreads) {
     }
     EXPECT_EQ(result.records[2].predicted[0], results[0].records[2].predicted[0]);
     EXPECT_EQ(result.prediction_error, results[0].prediction_error);
+  }
+}
+
+// Two modes an axis, each of which takes the force that the cut makes, over several stretches.
+TEST(RecordModel, HasTheSignalOfADynamometerForAnyNumberOfThreads) {
+  Truth truth = half_immersion();
+  truth.samples = 9001;
+  for (int axis = 0; axis < 3; ++axis) {
+    truth.dynamometer[axis] = {{{2.0 * core::kPi * (500.0 + 100.0 * axis), 0.03}, 0.8},
+                               {{2.0 * core::kPi * 1100.0, 0.05}, -0.3}};
+  }
+  const std::vector<Record> records = {make_record(truth, "two modes")};
+  FitSettings settings;
+  settings.estimate_dynamometer = true;
+  settings.dynamometer = truth.dynamometer;
+  RecordState state;
+  const std::array<double, 6> k = values(truth.coefficients);
+  std::copy(k.begin(), k.end(), state.coefficients.k.begin());
+  state.dynamometer = truth.dynamometer;
+  const double middle = 0.5 * static_cast<double>(truth.samples - 1) / truth.sampling_rate;
+  state.phase = truth.phase + truth.spindle_speed * middle;
+  state.spindle_speed = truth.spindle_speed;
+  const cutter::Runout& runout = truth.cutter.runout;
+  state.runout = {runout.offset * std::cos(runout.angle), runout.offset * std::sin(runout.angle)};
+  std::vector<NormalEquations> sums;
+  for (const std::size_t threads : {1, 2, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const JointProblem problem(truth.cutter, records, settings, {state});
+    sums.push_back(problem.sum(0, problem.states()[0]));
+  }
+  double forces = 0.0;
+  for (const std::vector<double>& force : records[0].trace.force) {
+    for (const double f : force) forces += f * f;
+  }
+  std::printf("residual of the true state: %.1e of the force\n",
+              std::sqrt(sums[0].squares / forces));
+  EXPECT_LT(sums[0].squares, 1e-20 * forces);
+  for (const NormalEquations& one : sums) {
+    EXPECT_EQ(one.gram, sums[0].gram);
+    EXPECT_EQ(one.gradient, sums[0].gradient);
   }
 }
 
