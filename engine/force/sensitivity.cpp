@@ -2,8 +2,8 @@
 #include "force/sensitivity.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -140,7 +140,7 @@ struct ForceSensitivity::Tooth {
     }
   }
   /// (F31): a whole stretch of an edge, all flutes of one helix, no size effect.
-  void add(const MomentPair& moments, const Line& line, bool with_slopes) {
+  void add(const MomentPair& moments, const ChipLine& line, bool with_slopes) {
     for (int power = 0; power < 2; ++power) {  // of z
       if (power == 1 && !with_slopes) break;
       const double* k = &coefficients.k[6 * power];
@@ -244,14 +244,11 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
   if (!by_lines_) return;
   const double tangent = edges_.flutes().front().helix_tangent;
   for (const EdgePiece& piece : edges_.pieces()) {
-    ends_.push_back({end_at(tangent, piece.bottom), end_at(tangent, piece.top)});
+    ends_.push_back({edge_point(edges_.envelope(), tangent, piece.bottom),
+                     edge_point(edges_.envelope(), tangent, piece.top)});
     if (!by_moments_) continue;
     whole_.push_back(moments_of(edges_, piece, tangent, piece.bottom, piece.top, wanted.slopes));
   }
-}
-
-ForceSensitivity::End ForceSensitivity::end_at(double tangent, double z) const {
-  return {z, direction(tangent * edges_.envelope().lag(z))};
 }
 
 /// The reach that decides the chip at a height.
@@ -277,66 +274,8 @@ void ForceSensitivity::add_by_nodes(Tooth& tooth, const EdgePiece& piece, const 
   }
 }
 
-/// Walks up a piece along the lowest of the lines, (F23), each of which crosses another once.
-void ForceSensitivity::find_stretches(double tangent, const End& low, const End& high) {
-  const auto smallest = [&](const End& end) {
-    const auto less = [&](const Line& a, const Line& b) { return a.at(end.lag) < b.at(end.lag); };
-    return static_cast<int>(std::min_element(lines_.begin(), lines_.end(), less) - lines_.begin());
-  };
-  // The direction of the middle of the piece, which turns by no more than pi: the sum of its ends
-  // vanishes at pi, their difference at 0.
-  const double sign = hand(tangent);
-  const double cos_middle = low.lag[0] + high.lag[0] + sign * (high.lag[1] - low.lag[1]);
-  const double sin_middle = low.lag[1] + high.lag[1] - sign * (high.lag[0] - low.lag[0]);
-  // Angle from the lower end to where a line that changes its sign is zero.
-  const auto turn_to_zero = [&](const Line& line) {
-    double c = -line.b, s = line.a;
-    if (c * cos_middle + s * sin_middle < 0.0) c = -c, s = -s;
-    return std::atan2(low.lag[0] * s - low.lag[1] * c, low.lag[0] * c + low.lag[1] * s);
-  };
-  const auto height = [&](double turn) {
-    const double lag = edges_.envelope().lag(low.z) + turn / tangent;
-    return std::clamp(edges_.envelope().height_at_lag(lag), low.z, high.z);
-  };
-  stretches_.clear();
-  if (lines_.size() == 1) {
-    stretches_.push_back({{low.z, high.z}, 0});
-    return;
-  }
-  // The part of a stretch in which there is a chip.
-  const auto keep = [&](End from, End to, int reach) {
-    const Line& line = lines_[reach];
-    const double below = line.at(from.lag), above = line.at(to.lag);
-    if (below <= 0.0 && above <= 0.0) return;
-    if (below < 0.0) from.z = std::max(from.z, height(turn_to_zero(line)));
-    if (above < 0.0) to.z = std::min(to.z, height(turn_to_zero(line)));
-    if (from.z < to.z) stretches_.push_back({{from.z, to.z}, reach});
-  };
-  const int last = smallest(high);
-  int now = smallest(low);
-  End from = low;
-  for (std::size_t step = 1; now != last && step < lines_.size(); ++step) {
-    // Only a line that ends below this one crosses it; the first to do so is next.
-    int next = last;
-    double first = std::numeric_limits<double>::infinity();
-    for (std::size_t m = 0; m < lines_.size(); ++m) {
-      const Line apart = lines_[m] - lines_[now];
-      if (!(apart.at(high.lag) < 0.0)) continue;
-      const double turn = turn_to_zero(apart);
-      if (std::abs(turn) < first) first = std::abs(turn), next = static_cast<int>(m);
-    }
-    if (std::isinf(first)) break;  // of equal lines either serves
-    const double z = std::max(from.z, height(sign * first));
-    const End to = end_at(tangent, z);
-    keep(from, to, now);
-    from = to;
-    now = next;
-  }
-  keep(from, high, now);
-}
-
-void ForceSensitivity::find_stretches(const Tooth& tooth, const EdgePiece& piece, double from,
-                                      double to) {
+void ForceSensitivity::search_stretches(const Tooth& tooth, const EdgePiece& piece, double from,
+                                        double to) {
   find_regimes(edges_, law_, tooth.feed, tooth.flute, piece, tooth.tip_angle, from, to, regimes_);
   stretches_.clear();
   for (const Regime& regime : regimes_) {
@@ -351,11 +290,12 @@ void ForceSensitivity::add_interval(Tooth& tooth, double z1, double z2) {
     const double to = std::min(z2, piece.top);
     if (from >= to) continue;
     if (by_lines_) {
-      find_stretches(tooth.tangent,
-                     from == piece.bottom ? ends_[q][0] : end_at(tooth.tangent, from),
-                     to == piece.top ? ends_[q][1] : end_at(tooth.tangent, to));
+      const auto point = [&](double z) { return edge_point(edges_.envelope(), tooth.tangent, z); };
+      find_lowest(edges_.envelope(), tooth.tangent, lines_,
+                  from == piece.bottom ? ends_[q][0] : point(from),
+                  to == piece.top ? ends_[q][1] : point(to), stretches_);
     } else {
-      find_stretches(tooth, piece, from, to);
+      search_stretches(tooth, piece, from, to);
     }
     for (std::size_t i = 0; i < stretches_.size(); ++i) {
       const auto& [regime, reach] = stretches_[i];
@@ -393,7 +333,7 @@ void ForceSensitivity::begin(Tooth& tooth) {
   const auto count = static_cast<int>(flutes.size());
   const double own = flutes[tooth.flute].position;
   for (int m = 1; m <= law_.reaches(); ++m) {
-    Line& line = lines_[m - 1];
+    ChipLine& line = lines_[m - 1];
     const int other = (tooth.flute + m) % count;
     const double turn = tooth.flute + m >= count ? core::kTurn : 0.0;
     line.ratio = (flutes[other].position + turn - own) * count / core::kTurn;
@@ -408,6 +348,7 @@ void ForceSensitivity::begin(Tooth& tooth) {
 
 Sensitivity ForceSensitivity::at(double angle, double feed_per_tooth,
                                  const FittedCoefficients& coefficients) {
+  assert(wanted_.size_effect || coefficients.size_exponent == 0.0);
   Sensitivity sum;
   for (std::size_t j = 0; j < edges_.flutes().size(); ++j) {
     const cutter::Flute& flute = edges_.flutes()[j];

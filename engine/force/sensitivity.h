@@ -8,6 +8,7 @@
 #include "force/chip_regimes.h"
 #include "force/edge.h"
 #include "force/engagement.h"
+#include "force/lowest_line.h"
 #include "force/stretch_moments.h"
 
 namespace millstudy::force {
@@ -62,34 +63,12 @@ class ForceSensitivity {
   Sensitivity at(double angle, double feed_per_tooth, const FittedCoefficients& coefficients);
 
  private:
-  /// (F23): the chip under one reach is A cos(psi) + B sin(psi) over sin(kappa), psi the lag.
-  struct Line {
-    double ratio = 0.0;    ///< w_m, feed since that tooth passed over the mean one [1]
-    double cosines = 0.0;  ///< of the positions of both teeth, the difference
-    double sines = 0.0;
-    double a = 0.0;
-    double b = 0.0;
-    double at(const std::array<double, 2>& lag) const { return a * lag[0] + b * lag[1]; }
-    Line operator-(const Line& other) const { return {0.0, 0.0, 0.0, a - other.a, b - other.b}; }
-  };
-  /// A regime and the reach that decides over it.
-  struct Stretch {
-    Regime regime;
-    int reach;
-  };
-  /// A height of an edge, and cos and sin of its lag angle.
-  struct End {
-    double z;
-    std::array<double, 2> lag;
-  };
   struct Tooth;
   void begin(Tooth& tooth);
   void add_interval(Tooth& tooth, double z1, double z2);
   void add_by_nodes(Tooth& tooth, const EdgePiece& piece, const Regime& regime);
   int smallest_at(const Tooth& tooth, double z);
-  End end_at(double tangent, double z) const;
-  void find_stretches(double tangent, const End& low, const End& high);
-  void find_stretches(const Tooth& tooth, const EdgePiece& piece, double from, double to);
+  void search_stretches(const Tooth& tooth, const EdgePiece& piece, double from, double to);
 
   CuttingEdges edges_;
   ChipLaw law_;
@@ -100,10 +79,10 @@ class ForceSensitivity {
   std::array<double, 2> offset_{};           ///< of the runout
   std::vector<std::array<double, 2>> tips_;  ///< cos and sin of the positions of the flutes
   // Of every piece as a whole.
-  std::vector<MomentPair> whole_;         ///< where (F31) serves
-  std::vector<std::array<End, 2>> ends_;  ///< where (F23) does
-  std::vector<Line> lines_;               ///< of the flute at hand, by reach
-  std::vector<Stretch> stretches_;        ///< of the piece at hand
+  std::vector<MomentPair> whole_;               ///< where (F31) serves
+  std::vector<std::array<EdgePoint, 2>> ends_;  ///< where (F23) does
+  std::vector<ChipLine> lines_;                 ///< of the flute at hand, by reach
+  std::vector<LineStretch> stretches_;          ///< of the piece at hand
   std::vector<Regime> regimes_;
   std::vector<Reach> reaches_;
 };

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "force/nonlinear_force.h"
 #include "unit/force/random_cutters.h"
 
@@ -81,7 +83,7 @@ Point random_point(std::mt19937_64& random, bool with_size_effect) {
       point.coefficients.reference_chip_thickness = uniform(random, 0.05, 0.2);
     }
     point.angle = uniform(random, -7.0, 7.0);
-    if (at(point).force != Vector{}) return point;
+    if (reference_force(point) != Vector{}) return point;
   }
 }
 
@@ -163,6 +165,57 @@ TEST(ForceSensitivity, HasTheForceOfTheOtherKernel) {
   }
   std::printf("worst force: %.1e\n", worst);
   EXPECT_LT(worst, 1e-12);
+}
+
+// Engaged from entry to exit of a slot, a tooth has no chip of its own at both ends; without helix
+// there is but one lag; without feed only runout makes chips.
+TEST(ForceSensitivity, HasTheForceOfTheOtherKernelWhereLinesVanish) {
+  const auto with_runout = [](cutter::Cutter cutter, double offset, double angle) {
+    cutter.runout.offset = offset;
+    cutter.runout.angle = angle;
+    return cutter;
+  };
+  cutter::Cutter needle{cutter::Shape::taper, 2.0, 2, core::kTurn / 8.0};
+  needle.taper_angle = core::kTurn / 120.0;
+  needle.lead = cutter::Lead::constant_helix;
+  cutter::Cutter left = needle;
+  left.flutes = 3;
+  left.helix_angle = -left.helix_angle;
+  const cutter::Cutter steep{cutter::Shape::flat, 6.0, 4, core::kTurn / 8.0};
+  const cutter::Cutter straight{cutter::Shape::flat, 10.0, 3, 0.0};
+  struct Case {
+    cutter::Cutter cutter;
+    double depth, feed;
+  };
+  double worst = 0.0;
+  for (const Case& one : {Case{with_runout(needle, 0.03, 0.4), 30.0, 0.02},
+                          {with_runout(needle, 0.005, 2.0), 30.0, 0.02},
+                          {with_runout(left, 0.03, 1.0), 22.0, 0.02},
+                          {with_runout(steep, 0.03, 0.0), 20.0, 0.05},
+                          {with_runout(steep, 0.2, 0.0), 20.0, 0.05},
+                          {with_runout(steep, 0.01, 1.0), 20.0, 0.0},
+                          {with_runout(straight, 0.02, 0.5), 2.0, 0.05}}) {
+    Point point{one.cutter, slot(one.depth), 0.0, one.feed, {}};
+    point.coefficients.k = {700.0, 300.0, 170.0, 15.0, 19.0, 18.0};
+    std::vector<Vector> wrong;
+    double peak = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      point.angle = core::kTurn * i / 1500.0;
+      const Vector reference = reference_force(point);
+      for (const bool slopes : {false, true}) {
+        ForceSensitivity kernel(point.cutter, point.engagement, {slopes, false});
+        const Vector force = kernel.at(point.angle, point.feed, point.coefficients).force;
+        wrong.push_back({});
+        for (int row = 0; row < 3; ++row) wrong.back()[row] = force[row] - reference[row];
+      }
+      peak = std::max(peak, size(reference));
+    }
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+      EXPECT_LE(size(wrong[i]), 1e-12 * peak) << "angle " << i / 2 << ", depth " << one.depth;
+      worst = std::max(worst, size(wrong[i]) / peak);
+    }
+  }
+  std::printf("worst force: %.1e of the peak\n", worst);
 }
 
 TEST(ForceSensitivity, IsTheDerivativeOfTheForce) {
