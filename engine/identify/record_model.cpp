@@ -16,9 +16,7 @@ namespace {
 
 using Kind = Parameter::Kind;
 
-// Samples: the Jacobian of thirty columns fits a cache, and no power of two keeps them from the
-// same places in it.
-constexpr std::ptrdiff_t kStretch = 4000;
+constexpr std::ptrdiff_t kStretch = 4096;  // samples: the Jacobian of thirty columns fits a cache
 constexpr std::ptrdiff_t kKernelGrain = 256;  // samples that pay for preparing an edge
 
 /// d force / d parameter of the cut itself at one sample.

@@ -32,8 +32,8 @@ constexpr void take_for_granted(bool held) {
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #define TOML_MAX_NESTED_VALUES 64
-// It tells the compiler, too, that most characters beyond ASCII are never asked about being spaces,
-// though it asks about every one that an escape leads to: they are none.
+// It also tells the compiler that most characters beyond ASCII never come where it looks for
+// spaces; after a backslash any may: those that it does not list are no spaces.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false

@@ -7,13 +7,13 @@
 
 namespace millstudy::io {
 
-/// What a text holds that the parser must not see: the line (from 1), and what is wrong there.
+/// What is refused before the parser sees it: the line (from 1), and what is wrong there.
 struct Stumble {
   int line = 0;
   std::string why;
 };
 
-/// First place of a UTF-8 TOML text that toml++ 3.3 cannot be given, if there is one:
+/// First place of a UTF-8 TOML text that toml++ 3.3 should not be given, if there is one:
 /// - a dotted key of more than `most_key_parts` parts. Each part is one more level of tables, and
 ///   trees are destroyed recursively: a key of 1e5 parts would overflow the stack in the parser's
 ///   own destructor.

@@ -104,7 +104,7 @@ def main():
     n = options.samples
     records = [Record(np.stack([-data[f"Fy_R_{d}"].ravel()[:n], -data[f"Fx_R_{d}"].ravel()[:n], data[f"Fz_R_{d}"].ravel()[:n]]),
                       float(d), 160.0 / 60.0) for d in range(1, 6)]
-    text = bull_nose(folder, "tolerance = 1e-6").replace("sampling_rate_Hz", f"window_s = [0.0, {n / RATE}]\nsampling_rate_Hz")
+    text = bull_nose(folder, "tolerance = 1e-6", seconds=n / RATE)
     with tempfile.TemporaryDirectory() as place:
         (pathlib.Path(place) / "fit.toml").write_text(text)
         begin = time.perf_counter()

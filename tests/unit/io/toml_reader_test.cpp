@@ -173,7 +173,7 @@ TEST(Toml, RefusesCharactersBeyondAsciiOutsideTextsAndComments) {
             "accepted");
 }
 
-TEST(Toml, TakesEveryCharacterWhereABackslashLeadsToIt) {
+TEST(Toml, SurvivesCharactersBeyondAsciiAfterABackslash) {
   // Of every range that the parser has for spaces beyond ASCII, one that is a space and others.
   for (const std::string c : {"\u00a0", "é", "ж", "\u1680", "\u1700", "\u2003", "\u2100", "\u3000",
                               "語", "\ufef7", "\ufeff", "𝛼"}) {
