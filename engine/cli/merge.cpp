@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The verb merge: results of the parts of one study become the result of all of it.
 #include <algorithm>
-#include <array>
+#include <fcntl.h>
 #include <fmt/core.h>
-#include <future>
 #include <optional>
 #include <set>
+#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "io/packed_points.h"
 #include "io/result_blocks.h"
 #include "io/result_reader.h"
 #include "io/result_writer.h"
@@ -18,7 +19,7 @@
 namespace millstudy::cli {
 namespace {
 
-/// Points of a block, of which two are in memory.
+/// Points of a block.
 std::int64_t at_once(const sweep::Layout& layout) {
   return layout.traces ? 256 : 1 << 16;
 }
@@ -114,31 +115,55 @@ std::int64_t next_border(const std::vector<Part>& parts, std::int64_t first, std
   return border;
 }
 
+/// Points on their way: as they are packed in a part, or read.
+struct Points {
+  bool are_packed = false;
+  io::PackedPoints packed;
+  sweep::Block block{0, 0, 0, false};
+
+  std::int64_t count() const { return are_packed ? packed.count : block.count; }
+};
+
+/// Has the disk read what will be needed, while other things are done; only a hint.
+void read_ahead(const std::string& path) {
+  constexpr off_t kMost = 64 << 20;  // bytes
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::posix_fadvise(fd, 0, kMost, POSIX_FADV_WILLNEED);
+  ::close(fd);
+}
+
 /// The points of all parts, in order; who has a point that another has too is told.
 class Joined {
  public:
-  Joined(std::vector<Part>& parts, const sweep::Layout& layout) : parts_(parts), layout_(layout) {}
+  /// @param chunk  shape of those of the output
+  Joined(std::vector<Part>& parts, const sweep::Layout& layout, const io::Shape& chunk)
+      : parts_(parts), layout_(layout), chunk_(chunk) {}
 
-  /// The next points: as many as are in the same parts, within limits of memory. A part is open
-  /// while it has such.
-  void read(sweep::Block& block) {
+  /// The next points: those of a chunk as it is, or as many as are in the same parts, within limits
+  /// of memory. A part is open while it has such.
+  void read(Points& points) {
     const std::int64_t first = next_;
     const std::int64_t border = next_border(parts_, first, layout_.points());
-    std::int64_t end = std::min(first + at_once(layout_), border);
     std::vector<const io::ResultBlocks*> here;
     for (Part& part : parts_) {
       if (part.end <= first) part.result.reset();
       if (part.first <= first && first < part.end) here.push_back(&open(part));
     }
-    if (end < border && !here.empty()) end = here[0]->last_border(first, end);
-    const std::int64_t count = end - first;
-    if (here.size() == 1) here[0]->read(first, count, block);  // mostly
-    if (here.size() != 1 || block.values.empty()) {
-      block = sweep::Block(first, count, layout_.columns.size(), layout_.traces);
-      for (const io::ResultBlocks* part : here) add(part->read(first, count), block);
+    const bool is_alike = here.size() == 1 && here[0]->layout().chunk == chunk_;
+    points.are_packed = is_alike && here[0]->read_packed(first, border, points.packed);
+    if (points.are_packed) {
+      counts_.ok += points.packed.count;
+    } else {
+      std::int64_t end = std::min(first + at_once(layout_), border);
+      if (is_alike) {  // perhaps the next chunk can be taken as it is
+        end = std::min(end, here[0]->chunk_end(first));
+      } else if (end < border && !here.empty()) {
+        end = here[0]->last_border(first, end);
+      }
+      read_block(here, end, points.block);
     }
-    count_statuses(block);
-    next_ = end;
+    next_ += points.count();
   }
   const Ranges& twice() const { return twice_; }
   const Ranges& missing() const { return missing_; }
@@ -146,8 +171,23 @@ class Joined {
 
  private:
   const io::ResultBlocks& open(Part& part) const {
-    if (!part.result) check_alike(layout_, part.result.emplace(part.path));
+    if (part.result) return *part.result;
+    for (const Part& next : parts_) {
+      if (next.first == part.end) read_ahead(next.path);
+    }
+    check_alike(layout_, part.result.emplace(part.path));
     return *part.result;
+  }
+
+  void read_block(const std::vector<const io::ResultBlocks*>& here, std::int64_t end,
+                  sweep::Block& block) {
+    const std::int64_t count = end - next_;
+    if (here.size() == 1) here[0]->read(next_, count, block);  // mostly
+    if (here.size() != 1 || block.values.empty()) {
+      block = sweep::Block(next_, count, layout_.columns.size(), layout_.traces);
+      for (const io::ResultBlocks* part : here) add(part->read(next_, count), block);
+    }
+    count_statuses(block);
   }
 
   /// Points that were run, and that the block does not have yet.
@@ -173,25 +213,17 @@ class Joined {
 
   std::vector<Part>& parts_;
   const sweep::Layout& layout_;
+  const io::Shape& chunk_;
   std::int64_t next_ = 0;
   Ranges twice_, missing_;
   Counts counts_;
 };
 
-/// The next points are read and unpacked while those before them are packed and written.
-void write_all(Joined& joined, std::int64_t points, sweep::Sink& writer) {
-  std::array<sweep::Block, 2> blocks = {sweep::Block(0, 0, 0, false), sweep::Block(0, 0, 0, false)};
-  const auto how = io::can_read_while_writing() ? std::launch::async : std::launch::deferred;
-  const auto read = [&](sweep::Block& block) {
-    return std::async(how, [&] { joined.read(block); });
-  };
-  std::int64_t next = 0;
-  std::future<void> reading = read(blocks[0]);
-  for (std::size_t turn = 0; next < points; turn = 1 - turn) {
-    reading.get();
-    next += blocks[turn].count;
-    if (next < points) reading = read(blocks[1 - turn]);
-    writer.write(blocks[turn]);
+void write_all(Joined& joined, std::int64_t points, io::ResultSink& writer) {
+  Points some;
+  for (std::int64_t next = 0; next < points; next += some.count()) {
+    joined.read(some);
+    some.are_packed ? writer.write(some.packed) : writer.write(some.block);
   }
 }
 
@@ -222,7 +254,7 @@ int merge(const std::string& output, const std::vector<std::string>& files) {
     check_same(parts.front(), parts.back());
   }
   const auto writer = io::make_result_writer(output, layout);
-  Joined joined(parts, layout);
+  Joined joined(parts, layout, writer->chunk());
   write_all(joined, layout.points(), *writer);
   std::vector<core::Fault> faults;
   const auto check = [&](const Ranges& points, const char* what) {

@@ -196,7 +196,7 @@ int run(const StudyOptions& options, const RunSettings& settings) {
     layout.attributes.emplace_back("shard", shard);
     layout.attributes.emplace_back("shard_first_point", part.first);
     layout.attributes.emplace_back("shard_points", part.count);
-    layout.points_here = part.count;
+    layout.points_here = (layout.points() + settings.shards - 1) / settings.shards;  // alike in all
   }
   if (team->size() > 1) layout.attributes.emplace_back("ranks", std::int64_t{team->size()});
   std::atomic<bool>& stop = stop_on_signal();  // before there is a file to be left behind

@@ -72,14 +72,35 @@ std::optional<ChunkReader> ChunkReader::of(hid_t dataset, hid_t memory_type, con
   return ChunkReader(dataset, shape, std::move(chunk), H5Tget_size(memory_type));
 }
 
-bool ChunkReader::read(std::int64_t element, char* to) const {
+std::vector<hsize_t> ChunkReader::place_of(std::int64_t element) const {
   const Shape start = row_major_boxes(shape_, element, element + 1)[0].start;
-  const std::vector<hsize_t> place(start.begin(), start.end());
-  const std::size_t bytes = static_cast<std::size_t>(elements()) * size_;
-  // Both look for the chunk in the same way, so that it has the size that there is room for.
+  return {start.begin(), start.end()};
+}
+
+std::size_t ChunkReader::stored_bytes(const std::vector<hsize_t>& place) const {
   hsize_t stored = 0;
-  if (H5Dget_chunk_storage_size(dataset_, place.data(), &stored) < 0 || stored == 0) return false;
-  if (stored > 2 * bytes + 64) throw hdf5::Error("a chunk is larger than what is in it");
+  if (H5Dget_chunk_storage_size(dataset_, place.data(), &stored) < 0) return 0;
+  if (stored > 2 * bytes() + 64) throw hdf5::Error("a chunk is larger than what is in it");
+  return stored;
+}
+
+bool ChunkReader::read_packed(std::int64_t element, PackedChunk& to) const {
+  const std::vector<hsize_t> place = place_of(element);
+  to.bytes.resize(stored_bytes(place));
+  if (to.bytes.empty()) return true;
+  check(H5Dread_chunk(dataset_, H5P_DEFAULT, place.data(), &to.skipped, to.bytes.data()),
+        "read a variable");
+  if (to.skipped == hdf5::kAllFilters && to.bytes.size() != bytes())
+    throw hdf5::Error("a chunk has not the size of what is in it");
+  return to.skipped == hdf5::kAllFilters || to.skipped == 0;
+}
+
+bool ChunkReader::read(std::int64_t element, char* to) const {
+  const std::vector<hsize_t> place = place_of(element);
+  const std::size_t bytes = this->bytes();
+  // Both look for the chunk in the same way, so that it has the size that there is room for.
+  const std::size_t stored = stored_bytes(place);
+  if (stored == 0) return false;
   std::vector<char> packed(stored == bytes ? 0 : stored);
   std::uint32_t skipped = 0;
   check(H5Dread_chunk(dataset_, H5P_DEFAULT, place.data(), &skipped,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/hdf5.h"
+#include "io/packed_points.h"
 #include "io/row_major.h"
 
 namespace millstudy::io {
@@ -99,6 +100,14 @@ class ChunkStream {
     }
   }
 
+  /// The next elements are those of a whole chunk, and as many as one of this variable has.
+  void append_packed(const PackedChunk& packed) {
+    assert(held_.empty() && !unlimited_ && !shape_.empty());
+    if (!packed.bytes.empty())
+      hdf5::write_chunk(dataset_.get(), start(), packed.skipped, packed.bytes);
+    next_ = end();
+  }
+
   /// Writes what is held back.
   void flush() {
     if (held_.empty()) return;
@@ -121,8 +130,8 @@ class ChunkStream {
     } else {
       // A chunk is short only at its end: all dimensions after the split one are whole in it.
       held_.resize(static_cast<std::size_t>(whole));
-      hdf5::write_chunk_unfiltered(dataset_.get(), row_major_boxes(shape_, next_, next_ + 1)[0],
-                                   std::as_bytes(std::span<const T>(held_)));
+      hdf5::write_chunk(dataset_.get(), start(), hdf5::kAllFilters,
+                        std::as_bytes(std::span<const T>(held_)));
     }
     next_ += count;
     held_.clear();
@@ -138,6 +147,9 @@ class ChunkStream {
     return std::count_if(held_.begin(), held_.end(),
                          [&](const T& value) { return !same_bits(value, fill_); });
   }
+
+  /// Of the chunk of the next element, where this is its first.
+  Shape start() const { return row_major_boxes(shape_, next_, next_ + 1)[0].start; }
 
   /// Where the chunk being filled ends.
   std::int64_t end() const {

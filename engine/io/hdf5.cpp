@@ -160,8 +160,9 @@ void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int6
   });
 }
 
-void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std::byte> bytes) {
-  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, kAllFilters, sizes(start.start).data(), bytes.size(),
+void write_chunk(hid_t dataset, const Shape& start, std::uint32_t skipped,
+                 std::span<const std::byte> bytes) {
+  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped, sizes(start).data(), bytes.size(),
                        bytes.data()),
         "write a variable");
 }

@@ -103,8 +103,11 @@ Shape chunk_of(hid_t dataset);
 /// Writes elements begin .. begin + count - 1, counted in row-major order.
 void write_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                  std::int64_t count, const void* data);
-/// Stores the bytes of a whole chunk past the filters; start is that of the chunk.
-void write_chunk_unfiltered(hid_t dataset, const Box& start, std::span<const std::byte> bytes);
+/// Stores the bytes of a whole chunk as they are.
+/// @param start    of the chunk
+/// @param skipped  filters that they have not gone through: 0, or kAllFilters
+void write_chunk(hid_t dataset, const Shape& start, std::uint32_t skipped,
+                 std::span<const std::byte> bytes);
 void read_range(hid_t dataset, hid_t memory_type, const Shape& shape, std::int64_t begin,
                 std::int64_t count, void* data);
 

@@ -36,6 +36,8 @@ class PointTable {
 
   std::int64_t points() const { return points_; }
   const Shape& shape() const { return shape_; }
+  /// Of the chunks of status; empty if these are no runs of the row-major order.
+  const Shape& chunk() const { return chunk_; }
   const std::vector<std::string>& dimensions() const { return dimensions_; }
   /// A variable of the file that takes no value per point, such as the samples of traces.
   /// @throws hdf5::Error if there is none
@@ -60,7 +62,7 @@ class PointTable {
   std::string path_;
   hdf5::Handle file_;
   Shape shape_;
-  Shape chunk_;                          // of status; empty if it is in no row-major chunks
+  Shape chunk_;
   std::vector<haddr_t> scales_;          // of the dimensions
   std::vector<std::string> dimensions_;  // their names
   std::int64_t points_ = 1;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "io/chunk_reader.h"
 #include "io/point_table.h"
 #include "io/result_reader.h"
 #include "io/result_variables.h"
@@ -99,11 +100,6 @@ bool has_traces(const PointTable& table) {
 
 }  // namespace
 
-bool can_read_while_writing() {
-  hbool_t safe = false;
-  return H5is_library_threadsafe(&safe) >= 0 && safe;
-}
-
 struct ResultBlocks::Open {
   explicit Open(const std::string& file) : path(file), table(file) {}
 
@@ -119,7 +115,26 @@ struct ResultBlocks::Open {
   sweep::Layout layout;
   std::vector<const PointColumn*> values;
   std::optional<Traces> traces;
+  std::vector<ChunkReader> packed;  ///< of the values, then the status; none if not all are alike
 };
+
+namespace {
+
+/// Readers of the chunks of several variables; none if not all of them have chunks of this shape.
+std::vector<ChunkReader> chunk_readers(const std::vector<const PointColumn*>& values,
+                                       const PointColumn& status, const sweep::Layout& layout) {
+  std::vector<ChunkReader> readers;
+  const auto add = [&](const PointColumn& column, hid_t memory_type) {
+    auto reader = ChunkReader::of(column.dataset.get(), memory_type, layout.shape);
+    if (reader && reader->chunk() == layout.chunk) readers.push_back(*std::move(reader));
+  };
+  for (const PointColumn* const column : values) add(*column, H5T_NATIVE_DOUBLE);
+  add(status, H5T_NATIVE_INT8);
+  if (readers.size() != values.size() + 1) readers.clear();
+  return readers;
+}
+
+}  // namespace
 
 ResultBlocks::ResultBlocks(const std::string& path) {
   const hdf5::QuietErrors quiet;
@@ -141,6 +156,10 @@ ResultBlocks::ResultBlocks(const std::string& path) {
     }
     layout.traces = has_traces(table);
     if (layout.traces) open_->traces = open_traces(table);
+    layout.chunk = table.chunk();
+    if (!layout.traces)
+      open_->packed =
+          chunk_readers(open_->values, open_->column(PointColumn::Kind::status), layout);
     const std::optional<ResultSummary> summary = read_result_summary(path);
     for (const auto& [name, value] : summary->attributes) {
       if (name != "Conventions") layout.attributes.emplace_back(name, value);
@@ -161,6 +180,10 @@ const sweep::Layout& ResultBlocks::layout() const {
   return open_->layout;
 }
 
+std::int64_t ResultBlocks::chunk_end(std::int64_t point) const {
+  return chunk_around(open_->layout.shape, open_->layout.chunk, point).end;
+}
+
 sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
   sweep::Block block(first, count, 0, false);
   read(first, count, block);
@@ -169,6 +192,29 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
 
 std::int64_t ResultBlocks::last_border(std::int64_t first, std::int64_t end) const {
   return open_->table.last_border(first, end);
+}
+
+bool ResultBlocks::read_packed(std::int64_t first, std::int64_t end, PackedPoints& points) const {
+  const hdf5::QuietErrors quiet;
+  const Open& open = *open_;
+  if (open.packed.empty()) return false;
+  const Run run = open.packed.back().around(first);
+  if (run.begin != first || run.end > end) return false;
+  points.first = first;
+  points.count = run.end - first;
+  points.columns.resize(open.values.size());
+  try {
+    std::vector<double> codes(static_cast<std::size_t>(points.count));
+    open.table.read_numbers(open.column(PointColumn::Kind::status), first, codes);
+    const auto is_ok = [](double code) { return code == static_cast<double>(sweep::Status::ok); };
+    if (!std::all_of(codes.begin(), codes.end(), is_ok)) return false;
+    for (std::size_t c = 0; c < points.columns.size(); ++c) {
+      if (!open.packed[c].read_packed(first, points.columns[c])) return false;
+    }
+    return open.packed.back().read_packed(first, points.status);
+  } catch (const hdf5::Error& error) {
+    throw core::InputError({open.path, 0}, fmt::format("cannot be read: {}", error.what()));
+  }
 }
 
 void ResultBlocks::read(std::int64_t first, std::int64_t count, sweep::Block& block) const {

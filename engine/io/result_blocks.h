@@ -4,13 +4,11 @@
 #include <memory>
 #include <string>
 
+#include "io/packed_points.h"
 #include "sweep/block.h"
 #include "sweep/layout.h"
 
 namespace millstudy::io {
-
-/// True if results can be read while others are written: the library was built for threads.
-bool can_read_while_writing();
 
 /// A result file read back as the blocks it was written from.
 class ResultBlocks {
@@ -31,9 +29,19 @@ class ResultBlocks {
   /// The same into a block whose memory is used again.
   void read(std::int64_t first, std::int64_t count, sweep::Block& block) const;
 
+  /// The points of the chunk that begins with one, without unpacking more than their status: what
+  /// is packed is not checked.
+  ///
+  /// @return false if they have to be read: not all of them are ok, `first` is not where a chunk
+  ///         begins, it ends past `end`, or there are time histories, which know their place
+  /// @throws core::InputError if the file is damaged
+  bool read_packed(std::int64_t first, std::int64_t end, PackedPoints& points) const;
+
   /// Up to where, of points first .. end - 1, no chunk of the file is cut: the rest of one that is
   /// would be unpacked twice.
   std::int64_t last_border(std::int64_t first, std::int64_t end) const;
+  /// Where the chunk of a point ends: of a file with chunks.
+  std::int64_t chunk_end(std::int64_t point) const;
 
  private:
   struct Open;

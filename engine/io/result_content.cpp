@@ -47,6 +47,14 @@ void ResultContent::append(const sweep::Block& block) {
   for (TraceVariables& traces : variables_.traces) traces.append(block);
 }
 
+void ResultContent::append(const PackedPoints& points) {
+  for (std::size_t c = 0; c < variables_.columns.size(); ++c) {
+    variables_.columns[c].append_packed(points.columns[c]);
+  }
+  variables_.status.append_packed(points.status);
+  variables_.failure_code.leave_out(points.count);  // there are none
+}
+
 void ResultContent::leave_out(std::int64_t count) {
   for (ChunkStream<double>& column : variables_.columns) column.leave_out(count);
   variables_.status.leave_out(count);

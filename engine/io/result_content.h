@@ -5,6 +5,7 @@
 
 #include "io/failure_table.h"
 #include "io/hdf5_output.h"
+#include "io/packed_points.h"
 #include "io/result_variables.h"
 
 namespace millstudy::io {
@@ -23,6 +24,8 @@ class ResultContent {
 
   /// The next points, wherever they were first.
   void append(const sweep::Block& block);
+  /// The same, of a file with chunks of the same shape.
+  void append(const PackedPoints& points);
   /// In their place, so many points that are not run.
   void leave_out(std::int64_t count);
   /// Writes what is held back, the reasons of failures, and attributes that replace those of the

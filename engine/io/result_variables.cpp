@@ -38,21 +38,24 @@ void describe(hid_t dataset, const Description& description) {
   hdf5::write_attribute(dataset, "long_name", description.long_name);
 }
 
-/// A part of a study begins and ends within chunks, whose rest is empty space to pack and unpack:
-/// there they are small.
-std::int64_t chunk_elements(const sweep::Layout& layout) {
+/// A part of a study begins and ends within chunks, which have to be unpacked and packed again when
+/// it is merged: there they are small.
+Shape chunk_shape(const sweep::Layout& layout) {
   constexpr std::int64_t kFewest = 1024;
-  if (layout.points_here == 0) return kChunkElements;
-  return std::clamp<std::int64_t>(layout.points_here / 8, kFewest, kChunkElements);
+  if (is_row_major(layout.shape, layout.chunk)) {
+    const std::int64_t elements = element_count(layout.chunk);
+    if (kFewest / 2 <= elements && elements <= kChunkElements) return layout.chunk;
+  }
+  if (layout.points_here == 0) return row_major_chunk(layout.shape, kChunkElements);
+  return row_major_chunk(
+      layout.shape, std::clamp<std::int64_t>(layout.points_here / 16, kFewest, kChunkElements));
 }
 
 /// Makes the variables of one file; knows its dimensions.
 class Builder {
  public:
   Builder(hid_t file, const sweep::Layout& layout)
-      : file_(file),
-        layout_(layout),
-        chunk_(row_major_chunk(layout.shape, chunk_elements(layout))) {
+      : file_(file), layout_(layout), chunk_(chunk_shape(layout)) {
     if (is_grid()) {
       for (const sweep::Coordinate& coordinate : layout.coordinates) {
         scales_.push_back(create_coordinate(coordinate));
@@ -84,6 +87,8 @@ class Builder {
     }
     return {std::move(dataset), layout_.shape, chunk_, fill};
   }
+
+  const Shape& chunk() const { return chunk_; }
 
  private:
   /// A grid has a dimension for every coordinate; the other designs have one for all.
@@ -196,6 +201,7 @@ ResultVariables create_variables(hid_t file, const sweep::Layout& layout) {
                                   static_cast<std::int8_t>(sweep::Status::not_run)),
       builder.create<std::int32_t>("failure_code", H5T_STD_I32LE,
                                    {"1", "index of the reason in failure"}, 0),
+      builder.chunk(),
       {}};
   const std::array<std::int8_t, 4> flags = {0, 1, 2, 3};
   hdf5::write_attribute(variables.status.dataset(), "flag_values", flags);

@@ -45,6 +45,7 @@ struct ResultVariables {
   std::vector<ChunkStream<double>> columns;
   ChunkStream<std::int8_t> status;
   ChunkStream<std::int32_t> failure_code;
+  Shape chunk;
   std::vector<TraceVariables> traces;  ///< one, or none
 };
 

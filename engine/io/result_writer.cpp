@@ -13,7 +13,7 @@
 namespace millstudy::io {
 namespace {
 
-class ResultWriter final : public sweep::Sink {
+class ResultWriter final : public ResultSink {
  public:
   ResultWriter(const std::string& path, const sweep::Layout& layout)
       : target_(path), points_(layout.points()) {
@@ -27,6 +27,14 @@ class ResultWriter final : public sweep::Sink {
     guarded([&] { content_->append(block); });
     next_point_ += block.count;
   }
+
+  void write(const PackedPoints& points) override {
+    begin(points.first);
+    guarded([&] { content_->append(points); });
+    next_point_ += points.count;
+  }
+
+  const Shape& chunk() const override { return content_->variables().chunk; }
 
   void leave_out(std::int64_t first, std::int64_t count) override {
     begin(first);
@@ -77,8 +85,8 @@ class ResultWriter final : public sweep::Sink {
 
 }  // namespace
 
-std::unique_ptr<sweep::Sink> make_result_writer(const std::string& path,
-                                                const sweep::Layout& layout) {
+std::unique_ptr<ResultSink> make_result_writer(const std::string& path,
+                                               const sweep::Layout& layout) {
   return std::make_unique<ResultWriter>(path, layout);
 }
 

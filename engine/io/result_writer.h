@@ -4,10 +4,21 @@
 #include <memory>
 #include <string>
 
+#include "io/packed_points.h"
+#include "io/row_major.h"
 #include "sweep/block.h"
 #include "sweep/layout.h"
 
 namespace millstudy::io {
+
+/// A sink that takes points as they are packed in another file, too.
+class ResultSink : public sweep::Sink {
+ public:
+  using sweep::Sink::write;
+  /// @param points  of a file whose chunks have the shape chunk()
+  virtual void write(const PackedPoints& points) = 0;
+  virtual const Shape& chunk() const = 0;
+};
 
 /// A sink that writes the result file of a study (docs/result_file.md), complete or not at all.
 ///
@@ -20,11 +31,13 @@ namespace millstudy::io {
 /// whatever the number of points.
 ///
 /// @param path    folder must exist; an existing file is replaced by finish()
-/// @param layout  copied where it is needed later
+/// @param layout  copied where it is needed later; its chunks are taken unless they are too small
+/// or
+///                too large
 /// @throws core::InputError if the file cannot be written there, or the layout has more than 32
 ///         dimensions; write() and finish() throw core::ResourceError when the disk is full or
 ///         fails
-std::unique_ptr<sweep::Sink> make_result_writer(const std::string& path,
-                                                const sweep::Layout& layout);
+std::unique_ptr<ResultSink> make_result_writer(const std::string& path,
+                                               const sweep::Layout& layout);
 
 }  // namespace millstudy::io

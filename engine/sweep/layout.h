@@ -41,7 +41,8 @@ struct Layout {
   std::vector<Column> columns;
   bool traces = false;
   std::vector<Attribute> attributes;  ///< known before the run: title, study, study_hash, ...
-  std::int64_t points_here = 0;       ///< that have results, of a part of a study; 0: all
+  std::int64_t points_here = 0;       ///< of a part of a study, about; 0: all
+  std::vector<std::int64_t> chunk;    ///< what a file of it packs together; empty: not known
 
   std::int64_t points() const {
     std::int64_t product = 1;

@@ -5,7 +5,7 @@ import re
 import subprocess
 import unittest
 
-from program import PROGRAM, SOURCE, ProgramTest
+from program import PROGRAM, SLOW, SOURCE, ProgramTest
 
 PAGES = sorted([SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *(SOURCE / "docs").glob("*.md"),
                 *(SOURCE / "engine").glob("*/theory.md")])
@@ -42,7 +42,7 @@ class Documentation(ProgramTest):
                 self.write(text, name)
             for command in commands(page):
                 with self.subTest(page=page.name, command=command):
-                    done = subprocess.run(command, shell=True, cwd=self.folder, timeout=120,
+                    done = subprocess.run(command, shell=True, cwd=self.folder, timeout=120 * SLOW,
                                           env=self.environment, text=True, capture_output=True)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                     ran += 1

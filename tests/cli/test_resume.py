@@ -252,6 +252,22 @@ class Shards(ResumeTest):
             for part in parts:
                 os.remove(self.folder / part)
 
+    def test_whole_chunks_are_copied(self):
+        self.write(SLOT + '[sweep.axes]\n"cutter.helix_deg" = { from = 0.0, to = 60.0, count = 100 }\n'
+                          '"cut.feed_rate_mm_per_min" = { from = 600.0, to = 3000.0, count = 90 }\n')
+        self.millstudy("run", "study.toml", "-o", "whole.h5")
+        parts = [f"p{k}.h5" for k in (1, 2)]
+        for k, part in enumerate(parts, 1):
+            self.millstudy("run", "study.toml", "--shard", f"{k}/2", "-o", part)
+        self.millstudy("merge", "m.h5", *parts)
+        self.same("whole.h5", "m.h5")
+        with h5py.File(self.folder / "m.h5") as all_points, h5py.File(self.folder / "p1.h5") as part:
+            for name in ("force_x_max", "status"):
+                self.assertLess(part[name].chunks[0], 50)
+                self.assertEqual(all_points[name].chunks, part[name].chunks)
+                self.assertEqual(all_points[name].id.read_direct_chunk((0,) * part[name].ndim),
+                                 part[name].id.read_direct_chunk((0,) * part[name].ndim))
+
     def test_traces_too(self):
         self.write(SLOT + '[output]\ntraces = true\n[sweep.axes]\n"cutter.helix_deg" = '
                           '{ from = 0.0, to = 60.0, count = 30 }\n')
