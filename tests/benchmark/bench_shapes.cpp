@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Force over one revolution of 720 angles, for every envelope and every kind of flutes.
 //
-//   bench_shapes [--benchmark_filter=...]
+//   bench_shapes [--tolerance=1e-4] [--benchmark_filter=...]
 //
-// First the sampler against as many discs a tooth as they need for an error of 1e-4 of the peak;
-// the number is searched for and printed. Then unequal flutes, runout and the size effect against
-// equal flutes, whose prepared series are the fast path. Ratios are of medians. Run it on an idle
-// machine.
+// First the sampler against as many discs a tooth as they need for an error of 1e-4 of the peak, or
+// what is asked for; the number is searched for and printed. Then unequal flutes, runout and the
+// size effect against equal flutes, whose prepared series are the fast path. Ratios are of medians.
+// Run it on an idle machine.
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,6 @@ using core::rad_from_deg;
 
 constexpr int kSteps = 720;
 constexpr double kFeed = 0.06;
-constexpr double kTolerance = 1e-4;  // of the peak force
 constexpr int kMostDiscs = 1 << 20;
 const force::Coefficients kGgg70{2172.0, 850.0, 726.0, 17.3, 7.8, 6.7};
 
@@ -37,7 +38,7 @@ struct Cut {
   double corner_radius;
   double taper_deg;
   double depth;
-  double required;  ///< times faster than discs of kTolerance, 0 if that is measured elsewhere
+  double required;  ///< times faster than discs of 1e-4, 0 if that is measured elsewhere
 };
 
 const Cut kCuts[] = {
@@ -139,26 +140,26 @@ double error_of(const Cut& cut, const force::ForceSamples& exact, int discs) {
   return off / peak;
 }
 
-/// How many discs a tooth are accurate to kTolerance: by doubling, and then by halving the last
-/// doubling three times, so that the baseline is not charged for up to twice what it needs. 0 if
-/// kMostDiscs are not: then they are not discs of the same force.
-int discs_needed(const Cut& cut) {
+/// How many discs a tooth are accurate to a part of the peak force: by doubling, and then by
+/// halving the last doubling three times, so that the baseline is not charged for up to twice what
+/// it needs. 0 if kMostDiscs are not: then they are not discs of the same force.
+int discs_needed(const Cut& cut, double tolerance) {
   force::ForceSamples exact;
   sampler_of(cut, 2, Kind::equal).sample(kGgg70, {kFeed}, 0, kSteps, exact);
   int discs = 64;
   double error = error_of(cut, exact, discs);
-  while (error > kTolerance && discs < kMostDiscs) {
+  while (error > tolerance && discs < kMostDiscs) {
     discs *= 2;
     error = error_of(cut, exact, discs);
   }
   std::printf("%s, %g mm deep: ", cut.name.c_str(), cut.depth);
-  if (error > kTolerance) {
+  if (error > tolerance) {
     std::printf("%d discs a tooth are still wrong by %.1e of the peak\n", discs, error);
     return 0;
   }
   for (int step = discs / 4, tries = 0; tries < 3; step /= 2, ++tries) {
     const double error_of_fewer = error_of(cut, exact, discs - step);
-    if (error_of_fewer > kTolerance) continue;
+    if (error_of_fewer > tolerance) continue;
     discs -= step;
     error = error_of_fewer;
   }
@@ -200,9 +201,23 @@ void print_cold(const baseline::MedianReporter& reporter, const Cut& cut, int fl
   std::printf("\n");
 }
 
+double tolerance_asked(int& count, char** arguments) {
+  double tolerance = 1e-4;
+  int kept = 1;
+  for (int i = 1; i < count; ++i) {
+    if (std::strncmp(arguments[i], "--tolerance=", 12) == 0)
+      tolerance = std::max(1e-6, std::atof(arguments[i] + 12));
+    else
+      arguments[kept++] = arguments[i];
+  }
+  count = kept;
+  return tolerance;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  const double tolerance = tolerance_asked(argc, argv);
   // Many benchmarks: a tenth of the usual time each, unless the command line has another.
   std::string time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments = {argv[0], time.data()};
@@ -213,7 +228,7 @@ int main(int argc, char** argv) {
   bool agree = true;
   for (const Cut& cut : kCuts) {
     if (cut.required == 0.0) continue;
-    const int discs = discs_needed(cut);
+    const int discs = discs_needed(cut, tolerance);
     agree = agree && discs > 0;
     if (discs > 0) {
       baseline::add(
