@@ -87,7 +87,7 @@ std::size_t ChunkReader::stored_bytes(const std::vector<hsize_t>& place) const {
 bool ChunkReader::read_packed(std::int64_t element, PackedChunk& to) const {
   const std::vector<hsize_t> place = place_of(element);
   to.bytes.resize(stored_bytes(place));
-  if (to.bytes.empty()) return true;
+  if (to.bytes.empty()) return false;
   check(H5Dread_chunk(dataset_, H5P_DEFAULT, place.data(), &to.skipped, to.bytes.data()),
         "read a variable");
   if (to.skipped == hdf5::kAllFilters && to.bytes.size() != bytes())

@@ -33,7 +33,6 @@ class ChunkReader {
   bool read(std::int64_t element, char* to) const;
 
   /// The same without unpacking it.
-  /// @return false if it is packed in other ways
   bool read_packed(std::int64_t element, PackedChunk& to) const;
 
  private:
@@ -41,7 +40,7 @@ class ChunkReader {
       : dataset_(dataset), shape_(shape), chunk_(std::move(chunk)), size_(size) {}
 
   std::size_t bytes() const { return static_cast<std::size_t>(elements()) * size_; }
-  /// Of the chunk that begins at an element, in the file; 0 if it is not there.
+  /// Of the chunk that begins at an element, in the file; 0 if it is not there or not to be found.
   std::size_t stored_bytes(const std::vector<hsize_t>& place) const;
   std::vector<hsize_t> place_of(std::int64_t element) const;
 

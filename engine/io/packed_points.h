@@ -7,7 +7,7 @@
 
 namespace millstudy::io {
 
-/// A chunk as it is in a file; no bytes: it is not there, and all its elements are the fill value.
+/// A chunk as it is in a file; no bytes: all its elements are the fill value.
 struct PackedChunk {
   std::vector<std::byte> bytes;
   std::uint32_t skipped = 0;  ///< filters that it went past: 0, or all

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -15,7 +14,6 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr int kGzip = 1;  // measured: higher levels buy nothing on results
 
 struct Description {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "io/chunk_stream.h"
@@ -12,6 +13,9 @@ namespace millstudy::io {
 
 /// Values in a chunk of a variable, at most.
 inline constexpr std::int64_t kChunkElements = 1 << 16;
+
+/// What a result is where there is none: the fill value of its variable.
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// The variables of the samples of time histories.
 struct TraceChannel {

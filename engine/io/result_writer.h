@@ -31,9 +31,8 @@ class ResultSink : public sweep::Sink {
 /// whatever the number of points.
 ///
 /// @param path    folder must exist; an existing file is replaced by finish()
-/// @param layout  copied where it is needed later; its chunks are taken unless they are too small
-/// or
-///                too large
+/// @param layout  copied where it is needed later; its chunks are taken, unless they are too small
+///                or too large
 /// @throws core::InputError if the file cannot be written there, or the layout has more than 32
 ///         dimensions; write() and finish() throw core::ResourceError when the disk is full or
 ///         fails

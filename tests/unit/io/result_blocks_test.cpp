@@ -148,7 +148,7 @@ TEST_F(ResultBlocksTest, GiveChunksAsTheyAre) {
     sweep::Block block = sample::block(layout, 0, 30000);
     for (std::int64_t i = 0; i < 30000; ++i) {
       for (std::size_t c = 0; c < layout.columns.size(); ++c)
-        block.value(c, i) = c == 2 ? 7.0 : sample::value(c, i);
+        block.value(c, i) = c == 2 ? 7.0 : c == 1 && i < 20000 ? kMissing : sample::value(c, i);
     }
     block.status.assign(30000, sweep::Status::ok);
     block.failures.assign(30000, "");
@@ -252,31 +252,96 @@ TEST_F(ResultBlocksTest, RefuseChunksThatCannotBeUnpacked) {
   EXPECT_THROW(read_with(std::string(size - 1, '\1'), hdf5::kAllFilters), core::InputError);
 }
 
-/// A chunk whose record says that nothing of it is stored is no chunk that was left out.
-TEST_F(ResultBlocksTest, RefuseChunksOfNoBytes) {
-  write(sample::layout({30, 1000}, Design::grid, false), {0, 30000});
+/// Makes the record of the first chunk of a variable with two dimensions say that nothing is
+/// stored.
+void forget_first_chunk(const std::string& path, const char* name) {
   std::array<std::uint32_t, 2> record = {0, 0};  // bytes, filters that were skipped
   {
-    const hdf5::Handle file = hdf5::open_file_to_read(path_);
-    const hdf5::Handle status(H5Dopen2(file.get(), "status", H5P_DEFAULT), "open");
+    const hdf5::Handle file = hdf5::open_file_to_read(path);
+    const hdf5::Handle dataset(H5Dopen2(file.get(), name, H5P_DEFAULT), "open");
     const std::array<hsize_t, 2> start = {0, 0};
     hsize_t bytes = 0;
-    hdf5::check(H5Dget_chunk_storage_size(status.get(), start.data(), &bytes), "look");
+    hdf5::check(H5Dget_chunk_storage_size(dataset.get(), start.data(), &bytes), "look");
     record[0] = static_cast<std::uint32_t>(bytes);
   }
   std::string key(reinterpret_cast<const char*>(record.data()), sizeof record);
   key.append(3 * sizeof(std::uint64_t), '\0');  // its place, and that within an element
   std::string file;
   {
-    std::ifstream in(path_, std::ios::binary);
+    std::ifstream in(path, std::ios::binary);
     file.assign(std::istreambuf_iterator<char>(in), {});
   }
   const std::size_t at = file.find(key);
   ASSERT_NE(at, std::string::npos);
   ASSERT_EQ(file.find(key, at + 1), std::string::npos);
   file.replace(at, sizeof(std::uint32_t), sizeof(std::uint32_t), '\0');
-  std::ofstream(path_, std::ios::binary | std::ios::trunc) << file;
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << file;
+}
+
+/// A chunk whose record says that nothing of it is stored is no chunk that was left out.
+TEST_F(ResultBlocksTest, RefuseChunksOfNoBytes) {
+  write(sample::layout({30, 1000}, Design::grid, false), {0, 30000});
+  forget_first_chunk(path_, "status");
   EXPECT_THROW(ResultBlocks(path_).read(0, 30000), core::InputError);
+}
+
+class PackedPointsTest : public ResultBlocksTest {
+ protected:
+  /// Points that are all ok.
+  void write_ok() const {
+    sweep::Layout layout = sample::layout({30, 1000}, Design::grid, false);
+    layout.points_here = 30000;
+    sweep::Block block(0, 30000, layout.columns.size(), false);
+    std::fill(block.values.begin(), block.values.end(), 7.0);
+    block.status.assign(30000, sweep::Status::ok);
+    block.failures.assign(30000, "");
+    for (std::int64_t i = 0; i < 30000; ++i) {
+      block.value(0, i) = sample::value(0, i);
+      block.value(1, i) = static_cast<double>(i / 100);
+    }
+    const auto writer = make_result_writer(path_, layout);
+    writer->write(block);
+    writer->finish({});
+  }
+
+  /// A variable of the file with nothing in it.
+  void replace(const char* name, hid_t type, double fill) const {
+    const hdf5::Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open");
+    Shape chunk;
+    {
+      const hdf5::Handle old(H5Dopen2(file.get(), name, H5P_DEFAULT), "open");
+      chunk = hdf5::chunk_of(old.get());
+    }
+    hdf5::check(H5Ldelete(file.get(), name, H5P_DEFAULT), "delete");
+    const hdf5::Handle dataset = hdf5::create_dataset(file.get(), name, type, {30, 1000},
+                                                      {.chunk = chunk, .gzip = 1, .fill = fill});
+    for (const std::size_t d : {0, 1}) {
+      const hdf5::Handle scale(
+          H5Dopen2(file.get(), ("axis_" + std::to_string(d)).c_str(), H5P_DEFAULT), "open");
+      hdf5::attach_scale(dataset.get(), scale.get(), d);
+    }
+  }
+
+  PackedPoints packed_;
+};
+
+TEST_F(PackedPointsTest, AreNotThereForAChunkOfNoBytes) {
+  write_ok();
+  ASSERT_TRUE(ResultBlocks(path_).read_packed(0, 30000, packed_));
+  forget_first_chunk(path_, "feed_fluctuation_max");
+  EXPECT_THROW(ResultBlocks(path_).read_packed(0, 30000, packed_), core::InputError);
+}
+
+/// What is not stored has the fill value of that file, which is not for ever that of the copy.
+TEST_F(PackedPointsTest, AreNotThereForAnotherFillValue) {
+  write_ok();
+  replace("steps", H5T_IEEE_F64LE, 5.0);
+  EXPECT_EQ(ResultBlocks(path_).read(0, 1).values.back(), 5.0);
+  EXPECT_FALSE(ResultBlocks(path_).read_packed(0, 30000, packed_));
+  write_ok();
+  replace("status", H5T_STD_I8LE, 0.0);
+  EXPECT_EQ(ResultBlocks(path_).read(0, 1).status.back(), sweep::Status::ok);
+  EXPECT_FALSE(ResultBlocks(path_).read_packed(0, 30000, packed_));
 }
 
 TEST_F(ResultBlocksTest, RefuseTracesThatAreNotThere) {
