@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstring>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 namespace millstudy::force {
 
@@ -49,9 +52,30 @@ inline constexpr int kLanes = sizeof(Lanes) / sizeof(double);
   std::memcpy(to, &sum, sizeof sum);
 }
 
+// The compiler takes loops over lanes through memory, lane by lane.
 [[gnu::always_inline]] inline Lanes square_root(Lanes lanes) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_sqrt_pd(0xff, lanes);  // of the plain one g++ 12 warns without reason
+#elif defined(__AVX__)
+  return _mm256_sqrt_pd(lanes);
+#else
   for (int i = 0; i < kLanes; ++i) lanes[i] = std::sqrt(lanes[i]);
   return lanes;
+#endif
+}
+
+/// True if a comparison holds in any lane.
+template <class Mask>
+[[gnu::always_inline]] inline bool any(const Mask& mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;
+#elif defined(__AVX__) && !defined(__AVX512F__)
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+  long long found = 0;
+  for (int i = 0; i < kLanes; ++i) found |= mask[i];
+  return found != 0;
+#endif
 }
 
 }  // namespace millstudy::force

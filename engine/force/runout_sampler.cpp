@@ -36,6 +36,20 @@ struct Smallest {
   return found;
 }
 
+/// Where a line is zero, as a fraction of positive denominator: compared without division.
+struct Root {
+  Lanes over;
+  Lanes under;
+
+  Lanes value() const { return over / under; }
+  auto operator<(const Root& other) const { return over * other.under < other.over * under; }
+};
+
+template <class Mask>
+[[gnu::always_inline]] inline Root select(const Mask& mask, const Root& a, const Root& b) {
+  return {mask ? a.over : b.over, mask ? a.under : b.under};
+}
+
 /// Which end of the stretch in cut is not that of the piece, but where a limit of the arc is.
 enum class Cut { none, lower, upper, both };
 
@@ -262,37 +276,38 @@ class RunoutEdge::Sweep {
     // is negative by then, or was at the lower end.
     const auto starts_without = crosses & (line.edge == 0.0);
     if (any(starts_without)) {
-      Lanes begin = Lanes{} - kHuge, end = t_top;
+      Root begin = {Lanes{} - kHuge, Lanes{} + 1.0}, end = {t_top, Lanes{} + 1.0};
       Line first{};
       for (int m = 0; m < before_.count(); ++m) {
-        const Lanes p = hand * lines[m].p;
-        const Lanes root = -lines[m].q / p;
-        const auto later = (p > 0.0) & (root > begin);
-        begin = later ? root : begin;
+        const Lanes p = hand * lines[m].p, q = lines[m].q;
+        const Root rises = {-q, p}, falls = {q, -p};
+        const auto later = (p > 0.0) & (begin < rises);
+        begin = select(later, rises, begin);
         first = select(later, lines[m], first);
-        end = (p < 0.0) & (root < end) ? root : end;
-        end = (p == 0.0) & (lines[m].q < 0.0) ? Lanes{} - kHuge : end;
+        end = select((p < 0.0) & (falls < end), falls, end);
+        end = select((p == 0.0) & (q < 0.0), Root{Lanes{} - kHuge, Lanes{} + 1.0}, end);
       }
-      const auto where = starts_without & (begin < end) & (end > t_bottom);
-      if (any(where)) change(where, begin, first);
+      const auto where = starts_without & (begin < end) & (Root{t_bottom, Lanes{} + 1.0} < end);
+      if (any(where)) change(where, begin.value(), first);
     }
     // Slopes fall from line to line, so that no more than all can follow.
     for (int step = 0; step <= before_.count(); ++step) {
       const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
       if (!any(walks)) return;
       const Lanes p = hand * line.p;
-      Lanes end = p < 0.0 ? -line.q / p : Lanes{} + kHuge;  // the chip ends
+      const Root chip_ends = {line.q, -p};
+      Root end = select(p < 0.0, chip_ends, Root{Lanes{} + kHuge, Lanes{} + 1.0});
       Line next{};
       for (int m = 0; m < before_.count(); ++m) {
-        const Lanes fall = p - hand * lines[m].p;
-        const Lanes root = (lines[m].q - line.q) / fall;
-        const auto sooner = (fall > 0.0) & (root < end);
-        end = sooner ? root : end;
+        const Root crossing = {lines[m].q - line.q, p - hand * lines[m].p};
+        const auto sooner = (crossing.under > 0.0) & (crossing < end);
+        end = select(sooner, crossing, end);
         next = select(sooner, lines[m], next);
       }
-      const auto where = walks & (line.edge > 0.0) & (end < t_top);
+      const Lanes at = end.value();
+      const auto where = walks & (line.edge > 0.0) & (at < t_top);
       if (!any(where)) return;
-      change(where, end, next);
+      change(where, at, next);
     }
   }
 
