@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <list>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <unordered_map>
 #include <utility>
 
@@ -35,35 +37,54 @@ class SharedCache {
   }
 
  private:
-  using Entry = std::pair<std::string, std::shared_ptr<const T>>;
+  struct Entry {
+    std::string key;
+    std::shared_ptr<const T> value;
+    std::thread::id maker = std::this_thread::get_id();
+  };
+  using Entries = std::list<Entry>;
 
   std::shared_ptr<const T> find(const std::string& key) {
     const std::lock_guard lock(mutex_);
     const auto at = index_.find(key);
     if (at == index_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, at->second);
-    return at->second->second;
+    return at->second->value;
   }
 
   void insert(const std::string& key, std::shared_ptr<const T> value) {
+    Entries dropped;  // is destroyed after the lock is given back: values can be large
     const std::lock_guard lock(mutex_);
     if (index_.contains(key)) return;
     held_ += cost_(*value);
-    entries_.emplace_front(key, std::move(value));
+    entries_.push_front({key, std::move(value)});
     index_.emplace(key, entries_.begin());
     while (held_ > capacity_) {
-      held_ -= cost_(*entries_.back().second);
-      index_.erase(entries_.back().first);
-      entries_.pop_back();
+      const auto last = oldest();
+      held_ -= cost_(*last->value);
+      index_.erase(last->key);
+      dropped.splice(dropped.begin(), entries_, last);
     }
+  }
+
+  /// Of the entries that were not used for the longest time one that this thread made, if there is
+  /// one: to give back the memory of another thread is to wait for it. Not the newest, if there is
+  /// another.
+  typename Entries::iterator oldest() {
+    constexpr int kLookedAt = 16;
+    auto entry = std::prev(entries_.end());
+    for (int i = 0; i < kLookedAt && entry != entries_.begin(); ++i, --entry) {
+      if (entry->maker == std::this_thread::get_id()) return entry;
+    }
+    return std::prev(entries_.end());
   }
 
   std::size_t capacity_;
   Cost cost_;
   std::size_t held_ = 0;
   std::mutex mutex_;
-  std::list<Entry> entries_;  // most recently used first
-  std::unordered_map<std::string, typename std::list<Entry>::iterator> index_;
+  Entries entries_;  // most recently used first
+  std::unordered_map<std::string, typename Entries::iterator> index_;
 };
 
 }  // namespace millstudy::core
