@@ -23,44 +23,6 @@ struct SineAndCosine {
   Lanes cosine;
 };
 
-/// Sine and cosine of angles in 0 .. pi, to 3e-16 absolute (measured): Taylor series about pi/2.
-[[gnu::always_inline]] inline SineAndCosine sine_and_cosine(const Lanes& angle) {
-  // 1/n!, alternating, of cos (even n) and sin (odd n).
-  static constexpr std::array<double, 12> kCosine = {1.0,
-                                                     -1.0 / 2,
-                                                     1.0 / 24,
-                                                     -1.0 / 720,
-                                                     1.0 / 40320,
-                                                     -1.0 / 3628800,
-                                                     1.0 / 479001600,
-                                                     -1.0 / 87178291200.0,
-                                                     1.0 / 20922789888000.0,
-                                                     -1.0 / 6402373705728000.0,
-                                                     1.0 / 2432902008176640000.0,
-                                                     -1.0 / 1124000727777607680000.0};
-  static constexpr std::array<double, 12> kSine = {1.0,
-                                                   -1.0 / 6,
-                                                   1.0 / 120,
-                                                   -1.0 / 5040,
-                                                   1.0 / 362880,
-                                                   -1.0 / 39916800,
-                                                   1.0 / 6227020800.0,
-                                                   -1.0 / 1307674368000.0,
-                                                   1.0 / 355687428096000.0,
-                                                   -1.0 / 121645100408832000.0,
-                                                   1.0 / 51090942171709440000.0,
-                                                   -1.0 / 25852016738884976640000.0};
-  const Lanes x = angle - 0.5 * core::kPi;
-  const Lanes square = x * x;
-  Lanes c = kCosine[11] + Lanes{};
-  Lanes s = kSine[11] + Lanes{};
-  for (int n = 10; n >= 0; --n) {
-    c = c * square + kCosine[n];
-    s = s * square + kSine[n];
-  }
-  return {c, -(s * x)};
-}
-
 /// An angle in 0 .. pi with its sine and cosine.
 struct AngleLanes {
   Lanes angle;

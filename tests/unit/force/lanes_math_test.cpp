@@ -22,23 +22,6 @@ void by_lanes(const std::vector<double>& arguments, const Visit& visit) {
   }
 }
 
-TEST(LanesMath, SineAndCosineAreRightFromZeroToPi) {
-  constexpr int kAngles = 200'000;
-  std::vector<double> angles;
-  for (int i = 0; i <= kAngles; ++i) angles.push_back(core::kPi * i / kAngles);
-  long double worst = 0.0L;
-  by_lanes(angles, [&](const Lanes& angle, int count) {
-    const SineAndCosine found = sine_and_cosine(angle);
-    for (int i = 0; i < count; ++i) {
-      const long double exact = angle[i];
-      worst = std::max(worst, std::abs(static_cast<long double>(found.sine[i]) - sinl(exact)));
-      worst = std::max(worst, std::abs(static_cast<long double>(found.cosine[i]) - cosl(exact)));
-    }
-  });
-  std::cout << "sine_and_cosine: " << worst << " absolute\n";
-  EXPECT_LT(worst, 4e-16L);
-}
-
 /// The angle in 0 .. pi by long double.
 long double exact_arc_cotangent(double t) {
   const long double angle = atan2l(1.0L, static_cast<long double>(t));
