@@ -12,13 +12,12 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "benchmark/general_disc_baseline.h"
 #include "benchmark/median_reporter.h"
+#include "benchmark/take_option.h"
 #include "core/units.h"
 #include "force/sampler.h"
 
@@ -201,23 +200,10 @@ void print_cold(const baseline::MedianReporter& reporter, const Cut& cut, int fl
   std::printf("\n");
 }
 
-double tolerance_asked(int& count, char** arguments) {
-  double tolerance = 1e-4;
-  int kept = 1;
-  for (int i = 1; i < count; ++i) {
-    if (std::strncmp(arguments[i], "--tolerance=", 12) == 0)
-      tolerance = std::max(1e-6, std::atof(arguments[i] + 12));
-    else
-      arguments[kept++] = arguments[i];
-  }
-  count = kept;
-  return tolerance;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double tolerance = tolerance_asked(argc, argv);
+  const double tolerance = std::max(1e-6, baseline::take_option(argc, argv, "--tolerance=", 1e-4));
   // Many benchmarks: a tenth of the usual time each, unless the command line has another.
   std::string time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments = {argv[0], time.data()};

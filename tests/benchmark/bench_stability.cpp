@@ -13,12 +13,12 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "benchmark/median_reporter.h"
+#include "benchmark/take_option.h"
 #include "dynamics/depth_limit.h"
 #include "dynamics/floquet.h"
 #include "unit/dynamics/insperger.h"
@@ -110,23 +110,11 @@ void boundary(benchmark::State& state, const Lobes& lobes, int speeds) {
   }
 }
 
-/// The first argument that is not for the library, taken out.
-int speeds_asked(int& count, char** arguments) {
-  int speeds = 400, kept = 1;
-  for (int i = 1; i < count; ++i) {
-    if (std::strncmp(arguments[i], "--speeds=", 9) == 0)
-      speeds = std::max(1, std::atoi(arguments[i] + 9));
-    else
-      arguments[kept++] = arguments[i];
-  }
-  count = kept;
-  return speeds;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int speeds = speeds_asked(argc, argv);
+  const int speeds =
+      std::max(1, static_cast<int>(baseline::take_option(argc, argv, "--speeds=", 400)));
   benchmark::Initialize(&argc, argv);
   const std::vector<Lobes> all = {{"insperger_lobes", testing::insperger_machine()},
                                   {"two_modes_in_x_and_y", two_in_each()}};

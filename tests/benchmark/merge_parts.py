@@ -13,32 +13,13 @@ import sys
 import tempfile
 import time
 
-STUDY = """\
-schema_version = 1
-[study]
-name = "parts"
-kind = "force"
-[cutter]
-shape = "flat"
-diameter_mm = 12.0
-flutes = 2
-helix_deg = 30.0
-[coefficients]
-Ktc_N_per_mm2 = 2172.0
-Krc_N_per_mm2 = 850.0
-Kac_N_per_mm2 = 726.0
-Kte_N_per_mm = 17.3
-Kre_N_per_mm = 7.8
-Kae_N_per_mm = 6.7
-[cut]
-axial_depth_mm = 0.5
-entry_deg = 0.0
-exit_deg = 180.0
-spindle_speed_rpm = 3000.0
-[numerics]
-angular_steps = 90
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from program import SLOT  # noqa: E402
+
+# So that all points are different: what packs well would say little of the disk.
+STUDY = SLOT.replace('milling = "slot"', "entry_deg = 0.0\nexit_deg = 180.0") + """\
 [sweep.axes]
-"cut.feed_per_tooth_mm" = {{ from = 0.01, to = 0.2, count = {} }}
+"cut.feed_rate_mm_per_min" = {{ from = 300.0, to = 6000.0, count = {} }}
 "cut.exit_deg" = {{ from = 90.0, to = 180.0, count = 1000 }}
 """
 
