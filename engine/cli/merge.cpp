@@ -156,11 +156,8 @@ class Joined {
       counts_.ok += points.packed.count;
     } else {
       std::int64_t end = std::min(first + at_once(layout_), border);
-      if (is_alike) {  // perhaps the next chunk can be taken as it is
-        end = std::min(end, here[0]->chunk_end(first));
-      } else if (end < border && !here.empty()) {
-        end = here[0]->last_border(first, end);
-      }
+      // Perhaps the next chunk can be taken as it is.
+      if (is_alike) end = std::min(end, here[0]->chunk_end(first));
       read_block(here, end, points.block);
     }
     next_ += points.count();

@@ -230,16 +230,6 @@ void PointTable::read_numbers(const PointColumn& column, std::int64_t begin,
   }
 }
 
-std::int64_t PointTable::last_border(std::int64_t begin, std::int64_t end) const {
-  if (chunk_.empty()) return end;
-  std::int64_t border = end;
-  for (std::int64_t next = begin; next < end;) {
-    next = chunk_around(shape_, chunk_, next).end;
-    if (next <= end) border = next;
-  }
-  return border;
-}
-
 std::string PointTable::reason(double code) const {
   return word(code, reasons_);
 }

@@ -47,8 +47,6 @@ class PointTable {
   /// Fills `to` with the numbers of points begin, begin + 1, ... as they are stored: of status and
   /// failure the codes.
   void read_numbers(const PointColumn& column, std::int64_t begin, std::span<double> to) const;
-  /// Where, of points begin .. end - 1, the last chunk ends that is whole; end if there is none.
-  std::int64_t last_border(std::int64_t begin, std::int64_t end) const;
   /// What the code of a failure says; empty of none.
   std::string reason(double code) const;
   /// Cells of points begin .. begin + count - 1: texts for texts, status ("ok", ...) and failure

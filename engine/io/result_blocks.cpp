@@ -190,10 +190,6 @@ sweep::Block ResultBlocks::read(std::int64_t first, std::int64_t count) const {
   return block;
 }
 
-std::int64_t ResultBlocks::last_border(std::int64_t first, std::int64_t end) const {
-  return open_->table.last_border(first, end);
-}
-
 bool ResultBlocks::read_packed(std::int64_t first, std::int64_t end, PackedPoints& points) const {
   const hdf5::QuietErrors quiet;
   const Open& open = *open_;

@@ -37,10 +37,7 @@ class ResultBlocks {
   /// @throws core::InputError if the file is damaged
   bool read_packed(std::int64_t first, std::int64_t end, PackedPoints& points) const;
 
-  /// Up to where, of points first .. end - 1, no chunk of the file is cut: the rest of one that is
-  /// would be unpacked twice.
-  std::int64_t last_border(std::int64_t first, std::int64_t end) const;
-  /// Where the chunk of a point ends: of a file with chunks.
+  /// Past the last point of the chunk that a point is in; only of a layout() with chunks.
   std::int64_t chunk_end(std::int64_t point) const;
 
  private:

@@ -15,8 +15,11 @@ namespace millstudy::io {
 class ResultSink : public sweep::Sink {
  public:
   using sweep::Sink::write;
-  /// @param points  of a file whose chunks have the shape chunk()
+  /// The next points.
+  /// @param points  of a file whose chunks have the shape chunk(), that begin where a chunk does
+  /// @throws core::ResourceError when the disk is full or fails
   virtual void write(const PackedPoints& points) = 0;
+  /// Shape of the chunks of the variables that take a value for every point.
   virtual const Shape& chunk() const = 0;
 };
 

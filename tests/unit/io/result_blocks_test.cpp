@@ -102,18 +102,17 @@ TEST_F(ResultBlocksTest, GiveEveryRangeBackBitForBit) {
   }
 }
 
-TEST_F(ResultBlocksTest, AreBestCutWhereTheirBordersSay) {
+TEST_F(ResultBlocksTest, SayWhereAChunkEnds) {
   const sweep::Layout layout = sample::layout({300, 100}, Design::grid, false);
-  write(layout, {0, 30000});  // chunks of an eighth of it at most
+  write(layout, {0, 30000});  // chunks of a sixteenth of it at most
   const ResultBlocks blocks(path_);
-  EXPECT_EQ(blocks.last_border(0, 30000), 30000);
-  const std::int64_t chunk = blocks.last_border(0, 5000);
+  const std::int64_t chunk = blocks.chunk_end(0);
   EXPECT_EQ(chunk % 100, 0);
-  EXPECT_LE(chunk, 5000);
-  EXPECT_GT(chunk, 1000);
-  EXPECT_EQ(blocks.last_border(0, 2 * chunk + 1), 2 * chunk);
-  EXPECT_EQ(blocks.last_border(chunk - 1, chunk + 1), chunk);
-  EXPECT_EQ(blocks.last_border(1, 7), 7);  // none
+  EXPECT_LE(chunk, 30000 / 16);
+  EXPECT_GT(chunk, 30000 / 32);
+  EXPECT_EQ(blocks.chunk_end(chunk - 1), chunk);
+  EXPECT_EQ(blocks.chunk_end(chunk), 2 * chunk);
+  EXPECT_EQ(blocks.chunk_end(29999), 30000);
 }
 
 /// Copies a result, chunks as they are where that can be.
