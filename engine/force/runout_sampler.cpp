@@ -16,32 +16,28 @@ namespace {
 
 constexpr double kHuge = std::numeric_limits<double>::max();
 
-/// The smallest of the lines at a point of the edge.
+/// The smallest of the chips at a point of the edge.
 struct Smallest {
-  Line line;  ///< zero where the smallest is negative
-  Lanes which;
+  ChipLanes chip;
   Lanes value;
 };
 
-[[gnu::always_inline]] inline Smallest smallest_at(const SineAndCosine& phi, const Line* lines,
-                                                   int count) {
-  Smallest found = {lines[0], Lanes{}, lines[0].at(phi)};
-  for (int m = 1; m < count; ++m) {
-    const Lanes here = lines[m].at(phi);
-    const auto less = here < found.value;
-    found = {select(less, lines[m], found.line),
-             less ? Lanes{} + static_cast<double>(m) : found.which, less ? here : found.value};
-  }
-  found.line = select(found.value >= 0.0, found.line, Line{});
-  return found;
+[[gnu::always_inline]] inline Smallest smaller(const Smallest& a, const Smallest& b) {
+  const auto less = b.value < a.value;
+  return {select(less, b.chip, a.chip), less ? b.value : a.value};
 }
 
-/// Where a line is zero, as a fraction of positive denominator: compared without division.
+/// Of no chip where it is negative.
+[[gnu::always_inline]] inline Line line_of(const Smallest& smallest) {
+  const auto is_chip = smallest.value >= 0.0;
+  return {select(is_chip, smallest.chip, ChipLanes{}), is_chip ? Lanes{} + 1.0 : Lanes{}};
+}
+
+/// Where a chip is zero, as a fraction of positive denominator: compared without division.
 struct Root {
   Lanes over;
   Lanes under;
 
-  Lanes value() const { return over / under; }
   auto operator<(const Root& other) const { return over * other.under < other.over * under; }
 };
 
@@ -166,26 +162,92 @@ class RunoutEdge::Sweep {
     return lower.value < 0.0 ? kNone : lower.which;
   }
 
+  /// Where, at the angles of vectors, the edge crosses from one line to another.
+  struct Crossings {
+    static constexpr int kMost = 64;
+
+    /// @param n     the first angle of the vector
+    /// @param chip  difference of that below the crossing and that above
+    /// @param edge  likewise
+    template <class Mask>
+    void push(const Mask& where, int n, const ChipLanes& chip, double edge_forces) {
+      first[count] = n;
+      p[count] = where ? chip.p : Lanes{};
+      q[count] = where ? chip.q : Lanes{};
+      edge[count] = where ? Lanes{} + edge_forces : Lanes{};
+      ++count;
+    }
+    Line line(int i) const { return {{p[i], q[i]}, edge[i]}; }
+
+    int count = 0;
+    std::array<int, kMost> first;
+    std::array<Lanes, kMost> p;
+    std::array<Lanes, kMost> q;
+    std::array<Lanes, kMost> edge;
+  };
+
+  struct Changes {
+    Crossings of_teeth;  ///< from the chip of one to that of another
+    Crossings of_chip;   ///< where it begins or ends
+  };
+
   template <Cut cut>
   void add(SamplingRun& run, const Pass& pass, double from, double to) const {
     const IndexRange indices = run.between(pass, from, to, closed_);
     if (indices.first >= indices.last) return;
     const AngleTables& tables = run.tables();
     const double start = pass.offset - edge_.lower_shift_.value;
-    std::array<Line, kMostFlutes> lines;
-    run.accumulate(indices, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
-      const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
-      before_.find(c1, s1, lines.data());
-      const Place place = {start + tables.step * (static_cast<double>(n) + kLaneIndex),
-                           at_end(pass, edge_.lower_shift_, c1, s1),
-                           at_end(pass, edge_.upper_shift_, c1, s1)};
-      const ForceLanes force = force_at<cut>(lines.data(), place);
-      x = force.x, y = force.y, z = force.z, torque = force.torque;
-    });
+    const auto lower_angle_at = [&](int n) -> Lanes {
+      return start + tables.step * (static_cast<double>(n) + kLaneIndex);
+    };
+    std::array<ChipLanes, kMostFlutes> chips;
+    Changes changes;
+    const int together = kLanes * (Crossings::kMost / (before_.count() + 2));
+    for (IndexRange part = indices; part.first < indices.last; part.first += together) {
+      part.last = std::min(part.first + together, indices.last);
+      changes.of_teeth.count = changes.of_chip.count = 0;
+      run.accumulate(part, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+        const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
+        before_.find(c1, s1, chips.data());
+        const Place place = {n, lower_angle_at(n), at_end(pass, edge_.lower_shift_, c1, s1),
+                             at_end(pass, edge_.upper_shift_, c1, s1)};
+        const ForceLanes force = force_at<cut>(chips.data(), place, changes);
+        x = force.x, y = force.y, z = force.z, torque = force.torque;
+      });
+      add_crossings<RunoutStretch::kChipSums, 2>(run, changes.of_teeth, part.last, lower_angle_at);
+      add_crossings<RunoutStretch::kZeroSums, 1>(run, changes.of_chip, part.last, lower_angle_at);
+    }
+  }
+
+  /// Adds the stretches up to the crossings. Each is a long chain of operations, of which the
+  /// processor does several at a time where no decisions come between.
+  template <int kSums, int kVectors, class LowerAngle>
+  void add_crossings(SamplingRun& run, const Crossings& crossings, int last,
+                     const LowerAngle& lower_angle_at) const {
+    std::array<Lanes, Crossings::kMost + kVectors> variables;
+    for (int i = 0; i < crossings.count; ++i) {
+      const Lanes below = part_below(crossings.line(i).zero(), lower_angle_at(crossings.first[i]));
+      variables[i] = stretch_.variable_at(below);
+    }
+    for (int i = 0; i < kVectors; ++i) variables[crossings.count + i] = Lanes{};
+    for (int first = 0; first < crossings.count; first += kVectors) {
+      std::array<Lanes, kVectors> t;
+      std::copy_n(variables.begin() + first, kVectors, t.begin());
+      const auto sums = stretch_.zero_sums<kSums>(t);
+      for (int i = first; i < std::min(first + kVectors, crossings.count); ++i) {
+        const ForceLanes force = stretch_.up_to_zero(crossings.line(i), sums[i - first]);
+        const int n = crossings.first[i];
+        run.accumulate({n, std::min(n + kLanes, last)},
+                       [&](int, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+                         x = force.x, y = force.y, z = force.z, torque = force.torque;
+                       });
+      }
+    }
   }
 
   /// Where the piece stands.
   struct Place {
+    int n;              ///< index of the first angle
     Lanes lower_angle;  ///< immersion angle of its lower end
     SineAndCosine lower;
     SineAndCosine upper;
@@ -198,9 +260,9 @@ class RunoutEdge::Sweep {
     return {c1 * s + s1 * c, c1 * c - s1 * s};
   }
 
-  /// Which part of the piece is below the point at an immersion angle.
-  [[gnu::always_inline]] Lanes part_below(const Lanes& phi, const Place& place) const {
-    const Lanes past = edge_.hand_ * (place.lower_angle - phi);
+  /// Which part of the piece, its lower end at an immersion angle, is below the point at another.
+  [[gnu::always_inline]] Lanes part_below(const Lanes& phi, const Lanes& lower_angle) const {
+    const Lanes past = edge_.hand_ * (lower_angle - phi);
     const Lanes size = past < 0.0 ? -past : past;
     const Lanes part = (size < kAngleSnap ? Lanes{} : past) * edge_.per_lag_;
     return part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
@@ -210,7 +272,7 @@ class RunoutEdge::Sweep {
   /// enough, and none where there is no chip. Each lane has its own bits, whatever its neighbours.
   [[gnu::always_inline]] ForceLanes up_to(const Limit& limit, const Place& place,
                                           const Line& line) const {
-    const Lanes part = part_below(Lanes{} + limit.angle.value, place);
+    const Lanes part = part_below(Lanes{} + limit.angle.value, place.lower_angle);
     const auto steady = (line.edge == 0.0) | ((line.p == 0.0) & (line.q == limit.own_feed));
     ForceLanes force;
     if (any(line.edge * (steady ? Lanes{} + 1.0 : Lanes{}) != 0.0)) {
@@ -228,11 +290,11 @@ class RunoutEdge::Sweep {
     return {Lanes{} + angle.sine, Lanes{} + angle.cosine};
   }
 
-  /// The force under whichever line is the smallest, where it is positive. Mostly one line is it
-  /// all over the piece; only where the edge crosses from one to another are the crossings
-  /// computed.
+  /// The force under whichever chip is the smallest, where it is positive. Mostly one is it all
+  /// over the piece; where the edge crosses from one to another that is left for later, in changes.
   template <Cut cut>
-  [[gnu::always_inline]] ForceLanes force_at(const Line* lines, const Place& place) const {
+  [[gnu::always_inline]] ForceLanes force_at(const ChipLanes* chips, const Place& place,
+                                             Changes& changes) const {
     constexpr bool cut_below = cut == Cut::lower || cut == Cut::both;
     constexpr bool cut_above = cut == Cut::upper || cut == Cut::both;
     const bool right = edge_.hand_ > 0.0;
@@ -240,74 +302,93 @@ class RunoutEdge::Sweep {
     const Limit& lower_limit = right ? exit_ : entry_;
     const SineAndCosine bottom = cut_below ? lanes_of(lower_limit.angle) : place.lower;
     const SineAndCosine top = cut_above ? lanes_of(upper_limit.angle) : place.upper;
-    const Smallest below = smallest_at(bottom, lines, before_.count());
-    const Smallest above = smallest_at(top, lines, before_.count());
+    Smallest below = {chips[0], chips[0].at(bottom)}, above = {chips[0], chips[0].at(top)};
+    for (int m = 1; m < before_.count(); ++m) {
+      below = smaller(below, {chips[m], chips[m].at(bottom)});
+      above = smaller(above, {chips[m], chips[m].at(top)});
+    }
+    Line line = line_of(below);
+    const Line last = line_of(above);
     ForceLanes force;
-    Line line = below.line;
     if (cut_below) force -= up_to(lower_limit, place, line);
-    // A smallest line that is negative at both ends is so between them; of two one cannot know.
+    // A smallest chip that is negative at both ends is so between them; of two one cannot know.
     const auto crosses =
-        (below.which != above.which) | ((below.value >= 0.0) != (above.value >= 0.0));
-    if (any(crosses)) add_crossings(force, line, above.line, lines, place, bottom, top, crosses);
+        (below.chip.p != above.chip.p) | (below.chip.q != above.chip.q) | (line.edge != last.edge);
+    if (any(crosses)) cross(line, last, chips, {place.n, bottom, top}, crosses, changes);
     force += cut_above ? up_to(upper_limit, place, line) : stretch_.whole(top, line);
     return force;
   }
 
-  /// Walks up the edge from line to line: adds, where one gives way to the next, the stretch up to
-  /// there under their difference. `line` is that at the lower end, and then that at the upper,
-  /// which should be `last`.
+  /// What of the edge is in cut, at a vector of angles.
+  struct InCut {
+    int n;  ///< index of the first angle
+    SineAndCosine bottom;
+    SineAndCosine top;
+  };
+
+  /// Walks up the edge from line to line and notes each change. `line` is that at the bottom, and
+  /// then that at the top, which should be `last`.
   template <class Mask>
-  [[gnu::noinline]] void add_crossings(ForceLanes& force, Line& line, const Line& last,
-                                       const Line* lines, const Place& place,
-                                       const SineAndCosine& bottom, const SineAndCosine& top,
-                                       const Mask& crosses) const {
-    // Over sin(phi) lines are linear in the cotangent, which goes up with the edge of a right-hand
+  [[gnu::always_inline]] void cross(Line& line, const Line& last, const ChipLanes* chips,
+                                    const InCut& in_cut, const Mask& crosses,
+                                    Changes& changes) const {
+    // Over sin(phi) chips are linear in the cotangent, which goes up with the edge of a right-hand
     // cutter. At 0 and pi the sine may come out below zero by rounding: that would turn the sign.
     const double hand = edge_.hand_;
-    const Lanes t_top = hand * top.cosine / larger(top.sine, Lanes{} + 1e-300);
-    const Lanes t_bottom = hand * bottom.cosine / larger(bottom.sine, Lanes{} + 1e-300);
-    const auto change = [&](const auto& where, const Lanes& t, const Line& next) {
-      const AngleLanes at = arc_cotangent(hand * t);
-      const Line difference = select(where, line - next, Line{});
-      force += stretch_.up_to_zero(part_below(at.angle, place), at.of, difference);
-      line = select(where, next, line);
+    const Lanes one = Lanes{} + 1.0;
+    const auto root_at = [&](const SineAndCosine& phi) -> Root {
+      return {hand * phi.cosine, larger(phi.sine, Lanes{} + 1e-300)};
     };
-    // The chip begins where the last of the rising lines becomes positive, unless one of the others
-    // is negative by then, or was at the lower end.
+    const Root at_top = root_at(in_cut.top);
+    // The chip begins where the last of the rising ones becomes positive, unless one of the others
+    // is negative by then, or was at the bottom.
     const auto starts_without = crosses & (line.edge == 0.0);
     if (any(starts_without)) {
-      Root begin = {Lanes{} - kHuge, Lanes{} + 1.0}, end = {t_top, Lanes{} + 1.0};
-      Line first{};
+      Root begin = {Lanes{} - kHuge, one}, end = at_top;
+      ChipLanes first{};
       for (int m = 0; m < before_.count(); ++m) {
-        const Lanes p = hand * lines[m].p, q = lines[m].q;
+        const Lanes p = hand * chips[m].p, q = chips[m].q;
         const Root rises = {-q, p}, falls = {q, -p};
         const auto later = (p > 0.0) & (begin < rises);
         begin = select(later, rises, begin);
-        first = select(later, lines[m], first);
+        first = select(later, chips[m], first);
         end = select((p < 0.0) & (falls < end), falls, end);
-        end = select((p == 0.0) & (q < 0.0), Root{Lanes{} - kHuge, Lanes{} + 1.0}, end);
+        end = select((p == 0.0) & (q < 0.0), Root{Lanes{} - kHuge, one}, end);
       }
-      const auto where = starts_without & (begin < end) & (Root{t_bottom, Lanes{} + 1.0} < end);
-      if (any(where)) change(where, begin.value(), first);
+      const auto where =
+          starts_without & (begin.over > -kHuge) & (begin < end) & (root_at(in_cut.bottom) < end);
+      if (any(where)) {
+        changes.of_chip.push(where, in_cut.n, {-first.p, -first.q}, -1.0);
+        line = {select(where, first, line), where ? one : line.edge};
+      }
     }
-    // Slopes fall from line to line, so that no more than all can follow.
+    // Slopes fall from chip to chip, so that no more than all can follow.
     for (int step = 0; step <= before_.count(); ++step) {
       const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
       if (!any(walks)) return;
       const Lanes p = hand * line.p;
-      const Root chip_ends = {line.q, -p};
-      Root end = select(p < 0.0, chip_ends, Root{Lanes{} + kHuge, Lanes{} + 1.0});
-      Line next{};
+      const auto falls = p < 0.0;
+      Root end = {falls ? line.q : Lanes{} + kHuge, falls ? -p : one};
+      ChipLanes next{};
+      auto is_chip = next.p != 0.0;
       for (int m = 0; m < before_.count(); ++m) {
-        const Root crossing = {lines[m].q - line.q, p - hand * lines[m].p};
+        const Root crossing = {chips[m].q - line.q, p - hand * chips[m].p};
         const auto sooner = (crossing.under > 0.0) & (crossing < end);
         end = select(sooner, crossing, end);
-        next = select(sooner, lines[m], next);
+        next = select(sooner, chips[m], next);
+        is_chip |= sooner;
       }
-      const Lanes at = end.value();
-      const auto where = walks & (line.edge > 0.0) & (at < t_top);
-      if (!any(where)) return;
-      change(where, at, next);
+      const auto where = walks & (line.edge > 0.0) & (end < at_top);
+      const auto ends = where & ~is_chip, goes_on = where & is_chip;
+      if (any(goes_on)) {
+        changes.of_teeth.push(goes_on, in_cut.n, {line.p - next.p, line.q - next.q}, 0.0);
+      }
+      if (any(ends)) {
+        changes.of_chip.push(ends, in_cut.n, line, 1.0);
+      } else if (!any(goes_on)) {
+        return;
+      }
+      line = {select(where, next, line), ends ? Lanes{} : line.edge};
     }
   }
 

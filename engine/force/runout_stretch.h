@@ -14,19 +14,24 @@
 /// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
 namespace millstudy::force {
 
-/// Over sin(kappa), the chip of one reach is P cos(phi) + Q sin(phi), (F23), and edge forces act
-/// where it is positive. All zero: no chip.
-struct Line {
+/// Over sin(kappa), the chip of one reach is p cos(phi) + q sin(phi), (F23), [mm].
+struct ChipLanes {
   Lanes p{};
   Lanes q{};
-  Lanes edge{};  ///< 1 or 0
 
   Lanes at(const SineAndCosine& phi) const { return p * phi.cosine + q * phi.sine; }
+
+  /// The angle, 0 .. pi, at which it is zero.
+  Lanes zero() const {
+    const auto turns = p < 0.0;
+    return angle_of(turns ? q : -q, turns ? -p : p);
+  }
 };
 
-inline Line operator-(const Line& a, const Line& b) {
-  return {a.p - b.p, a.q - b.q, a.edge - b.edge};
-}
+/// A chip with the edge forces, which act where it is positive. All zero: no chip.
+struct Line : ChipLanes {
+  Lanes edge{};  ///< 1 or 0
+};
 
 /// The line of one reach over the tip angle tau of a tooth: P + i Q = turning exp(i tau) + i feed.
 struct LineOfTip {
@@ -35,8 +40,9 @@ struct LineOfTip {
 };
 
 template <class Mask>
-[[gnu::always_inline]] inline Line select(const Mask& mask, const Line& a, const Line& b) {
-  return {mask ? a.p : b.p, mask ? a.q : b.q, mask ? a.edge : b.edge};
+[[gnu::always_inline]] inline ChipLanes select(const Mask& mask, const ChipLanes& a,
+                                               const ChipLanes& b) {
+  return {mask ? a.p : b.p, mask ? a.q : b.q};
 }
 
 /// Rows of the terms of a series: the force x, y, z, torque under one line that does not turn.
@@ -83,7 +89,6 @@ class RunoutStretch {
  public:
   template <class Value>
   using Worths = std::array<Value, kWorths>;
-  static constexpr int kZeroWorths = 8;
 
   /// @param cosine, sine  of the angle from feed axes to those of the rows
   RunoutStretch(const MomentSeries& series, const Coefficients& k, double cosine, double sine)
@@ -137,7 +142,7 @@ class RunoutStretch {
   /// Terms for steady_up_to(): the upper point stays at an angle, the line is q sin(phi), q [mm].
   SteadyTerms steady_terms(const Angle& upper, double q) const {
     const SineAndCosine at = {Lanes{} + upper.sine, Lanes{} + upper.cosine};
-    const Line line = {Lanes{}, Lanes{} + q, Lanes{} + 1.0};
+    const Line line = {{Lanes{}, Lanes{} + q}, Lanes{} + 1.0};
     SteadyTerms steady;
     steady.reserve(terms_.size());
     for (const Worths<double>& w : terms_) {
@@ -155,32 +160,38 @@ class RunoutStretch {
     return {sum[0], sum[1], sum[2], sum[3]};
   }
 
-  /// up_to() where the line is zero at the upper point, and so r sin(delta), delta from there down:
-  /// the force is then r exp(-i b) times functions of the part alone.
-  [[gnu::always_inline]] ForceLanes up_to_zero(const Lanes& part, const SineAndCosine& upper,
-                                               const Line& line) const {
-    const Lanes c = upper.cosine, s = upper.sine;
-    const Lanes r = line.p * s - line.q * c;
-    std::array<Lanes, kZeroWorths> w{};
-    if (any(line.edge != 0.0)) {
-      w = sum_zero_terms<kZeroWorths>(part);
-    } else {  // from tooth to tooth: the chip alone
-      const std::array<Lanes, kRows> chip = sum_zero_terms<kRows>(part);
-      std::copy(chip.begin(), chip.end(), w.begin());
+  /// The variable of zero_sums() at which they are those of a part.
+  [[gnu::always_inline]] Lanes variable_at(const Lanes& part) const { return variable_.at(part); }
+
+  /// The first kSums of the series that up_to_zero() needs.
+  template <int kSums, std::size_t kVectors>
+  [[gnu::always_inline]] std::array<std::array<Lanes, kSums>, kVectors> zero_sums(
+      const std::array<Lanes, kVectors>& t) const {
+    return sum_series<kSums, kZeroSums>(kind_, zero_terms_.front().data(), zero_terms_.size(), t);
+  }
+
+  static constexpr int kChipSums = kRows;  ///< those of the chip alone
+  static constexpr int kZeroSums = 8;      ///< with those of the edge
+
+  /// up_to() where the chip is zero at the upper point, b, and so r sin(delta), delta from there
+  /// down: the force is then r exp(-i b) times functions of the part alone, and of the edge.
+  template <std::size_t kSums>
+  [[gnu::always_inline]] static ForceLanes up_to_zero(const Line& line,
+                                                      const std::array<Lanes, kSums>& w) {
+    // r (cos b, sin b) = (-q, p)
+    const Lanes size = square_root(line.p * line.p + line.q * line.q);
+    const Lanes r = line.p < 0.0 ? -size : size;
+    ForceLanes force = {line.p * w[1] - line.q * w[0], -line.p * w[0] - line.q * w[1], r * w[2],
+                        r * w[3]};
+    if constexpr (kSums > kChipSums) {
+      const Lanes per_r = line.edge / (r == 0.0 ? Lanes{} + 1.0 : r);
+      const Lanes c = -line.q * per_r, s = line.p * per_r;
+      force -= {c * w[4] + s * w[5], c * w[5] - s * w[4], -line.edge * w[6], -line.edge * w[7]};
     }
-    const Lanes real = r * w[0] - line.edge * w[4];
-    const Lanes imaginary = r * w[1] - line.edge * w[5];
-    return {c * real + s * imaginary, c * imaginary - s * real, r * w[2] + line.edge * w[6],
-            r * w[3] + line.edge * w[7]};
+    return force;
   }
 
  private:
-  template <int kSeries>
-  [[gnu::always_inline]] std::array<Lanes, kSeries> sum_zero_terms(const Lanes& part) const {
-    return sum_series<kSeries, kZeroWorths>(kind_, zero_terms_.front().data(), zero_terms_.size(),
-                                            variable_.at(part));
-  }
-
   template <class Value>
   [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
                                                  const Line& line) {
@@ -225,7 +236,7 @@ class RunoutStretch {
   Terms kind_;
   Worths<double> whole_;
   std::vector<Worths<double>> terms_;
-  std::vector<std::array<double, kZeroWorths>> zero_terms_;
+  std::vector<std::array<double, kZeroSums>> zero_terms_;
 };
 
 }  // namespace millstudy::force

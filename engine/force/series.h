@@ -47,35 +47,48 @@ class SeriesVariable {
 /// series falls slowly.
 enum class Terms { chebyshev, powers };
 
-/// Sums the first kSeries of kStride series abreast at t.
+/// Sums the first kSeries of kStride series at every t: eight sums abreast keep a processor busy,
+/// of which each waits for its own last product.
 ///
 /// @param terms  shape (count, kStride)
-/// @return shape (kSeries)
-template <int kSeries, int kStride>
-[[gnu::always_inline]] inline std::array<Lanes, kSeries> sum_series(Terms kind, const double* terms,
-                                                                    std::size_t count,
-                                                                    const Lanes& t) {
-  std::array<Lanes, kSeries> one{};
+template <int kSeries, int kStride, std::size_t kVectors>
+[[gnu::always_inline]] inline std::array<std::array<Lanes, kSeries>, kVectors> sum_series(
+    Terms kind, const double* terms, std::size_t count, const std::array<Lanes, kVectors>& t) {
+  std::array<std::array<Lanes, kSeries>, kVectors> sums{};
   if (kind == Terms::powers) {  // Horner
     for (std::size_t m = count; m-- > 0;) {
       const double* term = terms + kStride * m;
 #pragma GCC unroll 12
-      for (int k = 0; k < kSeries; ++k) one[k] = one[k] * t + term[k];
+      for (int k = 0; k < kSeries; ++k) {
+#pragma GCC unroll 2
+        for (std::size_t i = 0; i < kVectors; ++i) sums[i][k] = sums[i][k] * t[i] + term[k];
+      }
     }
-    return one;
+    return sums;
   }
   // The polynomials stand once for all series; Clenshaw's sum would take two operations for each.
-  const Lanes twice = 2.0 * t;
-  Lanes before = t, now = Lanes{} + 1.0;
+  std::array<Lanes, kVectors> before = t, now;
+  now.fill(Lanes{} + 1.0);
   for (std::size_t m = 0; m < count; ++m) {
     const double* term = terms + kStride * m;
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < kVectors; ++i) {
 #pragma GCC unroll 12
-    for (int k = 0; k < kSeries; ++k) one[k] += term[k] * now;
-    const Lanes next = twice * now - before;
-    before = now;
-    now = next;
+      for (int k = 0; k < kSeries; ++k) sums[i][k] += term[k] * now[i];
+      const Lanes next = 2.0 * t[i] * now[i] - before[i];
+      before[i] = now[i];
+      now[i] = next;
+    }
   }
-  return one;
+  return sums;
+}
+
+/// The same at one t.
+template <int kSeries, int kStride>
+[[gnu::always_inline]] inline std::array<Lanes, kSeries> sum_series(Terms kind, const double* terms,
+                                                                    std::size_t count,
+                                                                    const Lanes& t) {
+  return sum_series<kSeries, kStride>(kind, terms, count, std::array{t})[0];
 }
 
 }  // namespace millstudy::force

@@ -31,14 +31,14 @@ class TeethBefore {
 
   int count() const { return count_; }
 
-  /// The line of each at a spindle angle, of which cosine and sine are given.
-  [[gnu::always_inline]] void find(const Lanes& c1, const Lanes& s1, Line* lines) const {
+  /// The chip under each at spindle angles of which cosine and sine are given.
+  [[gnu::always_inline]] void find(const Lanes& c1, const Lanes& s1, ChipLanes* chips) const {
     const Lanes cos_a = offset_ * (c1 * zero_.cosine - s1 * zero_.sine);
     const Lanes sin_a = offset_ * (s1 * zero_.cosine + c1 * zero_.sine);
     for (int m = 0; m < count_; ++m) {
       const Before& b = before_[m];
-      lines[m] = {cos_a * b.one_less_cosine - sin_a * b.sine,
-                  b.feed + (sin_a * b.one_less_cosine + cos_a * b.sine), Lanes{} + 1.0};
+      chips[m] = {cos_a * b.one_less_cosine - sin_a * b.sine,
+                  b.feed + (sin_a * b.one_less_cosine + cos_a * b.sine)};
     }
   }
 

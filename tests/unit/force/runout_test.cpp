@@ -267,7 +267,8 @@ TEST(ForceSamplerWithRunout, IsTheSumOfItsFlutes) {
       }
     }
     for (int i = 0; i < 120; ++i) {
-      EXPECT_LE(distance(sample_at(all, i), sum[i], cutter::radius(c.cutter)), 1e-14 * peak) << c;
+      // Parts of a flute's force, larger than it is, are added in another order.
+      EXPECT_LE(distance(sample_at(all, i), sum[i], cutter::radius(c.cutter)), 4e-14 * peak) << c;
     }
   }
 }
