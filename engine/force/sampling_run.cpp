@@ -15,17 +15,15 @@ AngleTables::AngleTables(int angular_steps, int tooth_count)
     : teeth(tooth_count),
       period(angular_steps / std::gcd(angular_steps, tooth_count)),
       step(core::kTurn / angular_steps),
-      steps_per_rad(angular_steps / core::kTurn) {
+      steps_per_rad(angular_steps / core::kTurn),
+      circle(UnitCircle::of(angular_steps, period + kLanes)),
+      cos1(circle->cosine.data()),
+      sin1(circle->sine.data()) {
   const int padded = period + kLanes;
-  for (std::vector<double>* table : {&cos1, &sin1, &cos2, &sin2}) table->reserve(padded);
+  for (std::vector<double>* table : {&cos2, &sin2}) table->reserve(padded);
   for (int n = 0; n < padded; ++n) {
-    const double angle = core::kTurn * n / angular_steps;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    cos1.push_back(c);
-    sin1.push_back(s);
-    cos2.push_back((c - s) * (c + s));
-    sin2.push_back(2.0 * s * c);
+    cos2.push_back((cos1[n] - sin1[n]) * (cos1[n] + sin1[n]));
+    sin2.push_back(2.0 * sin1[n] * cos1[n]);
   }
   for (int q = 0; q < teeth; ++q) {
     cos_pitch.push_back(std::cos(core::kTurn * q / teeth));

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "force/harmonics.h"
 #include "force/lanes.h"
 #include "force/series.h"
+#include "force/unit_circle.h"
 
 namespace millstudy::force {
 
@@ -30,8 +32,9 @@ struct AngleTables {
   int period;   ///< S / gcd(S, teeth): the force at n and n + period is the same
   double step;  ///< 2 pi / S [rad]
   double steps_per_rad;
-  std::vector<double> cos1;
-  std::vector<double> sin1;
+  std::shared_ptr<const UnitCircle> circle;
+  const double* cos1;
+  const double* sin1;
   std::vector<double> cos2;
   std::vector<double> sin2;
   std::vector<double> cos_pitch;  ///< of 2 pi q / teeth, shape (teeth)

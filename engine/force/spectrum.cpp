@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/units.h"
 
 namespace millstudy::force {
 
@@ -15,10 +14,7 @@ Spectrum::Spectrum(int harmonics, int flutes, int angular_steps)
     throw core::InputError("harmonics = " + std::to_string(harmonics) +
                            " must be >= 1 and, times the flutes, at most half the angular steps");
   }
-  for (int s = 0; s < steps_; ++s) {
-    cosine_.push_back(std::cos(core::kTurn * s / steps_));
-    sine_.push_back(std::sin(core::kTurn * s / steps_));
-  }
+  circle_ = UnitCircle::of(steps_, steps_);
   for (int row = 0; row < kRows; ++row) {
     real_[row].assign(harmonics, 0.0);
     imaginary_[row].assign(harmonics, 0.0);
@@ -28,14 +24,16 @@ Spectrum::Spectrum(int harmonics, int flutes, int angular_steps)
 void Spectrum::add(const ForceSamples& samples, std::int64_t first, std::int64_t count) {
   const std::array<const double*, kRows> rows = {samples.x.data(), samples.y.data(),
                                                  samples.z.data(), samples.torque.data()};
+  const double* cosine = circle_->cosine.data();
+  const double* sine = circle_->sine.data();
   for (int k = 0; k < harmonics_; ++k) {
     const std::int64_t stride = static_cast<std::int64_t>(k + 1) * flutes_ % steps_;
     std::int64_t at = (first % steps_ + steps_) % steps_ * stride % steps_;
     std::array<double, kRows> real{}, imaginary{};
     for (std::int64_t i = 0; i < count; ++i) {
       for (int row = 0; row < kRows; ++row) {
-        real[row] += rows[row][i] * cosine_[at];
-        imaginary[row] += rows[row][i] * sine_[at];
+        real[row] += rows[row][i] * cosine[at];
+        imaginary[row] += rows[row][i] * sine[at];
       }
       at += stride;
       if (at >= steps_) at -= steps_;

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "force/sampler.h"
 #include "force/slice.h"
+#include "force/unit_circle.h"
 
 namespace millstudy::force {
 
@@ -36,8 +38,7 @@ class Spectrum {
   int flutes_;
   int steps_;
   std::int64_t count_ = 0;
-  std::vector<double> cosine_;  ///< of 2 pi s / S, shape (S)
-  std::vector<double> sine_;
+  std::shared_ptr<const UnitCircle> circle_;
   std::array<std::vector<double>, kRows> real_;
   std::array<std::vector<double>, kRows> imaginary_;
 };
