@@ -1,32 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include "force/chip_law.h"
 
+#include <cmath>
+
 #include "core/units.h"
 
 namespace millstudy::force {
 
+ChipLaw::ChipLaw(const CuttingEdges& edges) : edges_(edges) {
+  if (!cutter::has_runout(edges.cutter())) return;
+  const cutter::Runout& runout = edges.cutter().runout;
+  cutter::Runout tilt = runout;
+  tilt.offset = 0.0;
+  for (const cutter::Flute& flute : edges.flutes()) {
+    const double here = flute.position, quarter_behind = here - 0.25 * core::kTurn;
+    runout_.push_back(
+        {{cutter::runout_at(runout, here, 0.0), cutter::runout_at(runout, quarter_behind, 0.0)},
+         {cutter::runout_at(tilt, here, 1.0), cutter::runout_at(tilt, quarter_behind, 1.0)}});
+  }
+}
+
 void ChipLaw::find(int flute, double z, double lag, std::span<Reach> out) const {
-  if (!runout_) {
+  if (runout_.empty()) {
     out[0] = {edges_.pitch_ratio(flute, lag), 0.0};
     return;
   }
   const std::vector<cutter::Flute>& flutes = edges_.flutes();
   const auto count = static_cast<int>(flutes.size());
-  const auto position = [&](int j) { return flutes[j].position - flutes[j].helix_tangent * lag; };
-  const cutter::Runout& runout = edges_.cutter().runout;
-  const double own = position(flute);
-  const double radius = cutter::runout_at(runout, own, z);
-  for (int m = 1; m <= count; ++m) {
+  double tangent = flutes[flute].helix_tangent;
+  double c = std::cos(tangent * lag), s = std::sin(tangent * lag);
+  const double radius = runout_[flute].at(z, c, s);
+  for (int m = 1; m < count; ++m) {
     const int other = (flute + m) % count;
-    if (m == count) {
-      out[m - 1] = {static_cast<double>(count), 0.0};
-      continue;
+    if (flutes[other].helix_tangent != tangent) {
+      tangent = flutes[other].helix_tangent;
+      c = std::cos(tangent * lag), s = std::sin(tangent * lag);
     }
-    const double turn = flute + m >= count ? core::kTurn : 0.0;
-    const double pitch = position(other) + turn - own;
-    out[m - 1] = {pitch * count / core::kTurn,
-                  radius - cutter::runout_at(runout, position(other), z)};
+    out[m - 1] = {edges_.pitch_ratio(flute, lag, m), radius - runout_[other].at(z, c, s)};
   }
+  out[count - 1] = {static_cast<double>(count), 0.0};
 }
 
 }  // namespace millstudy::force

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,11 +21,10 @@ struct Reach {
 /// (F22): the chip that a tooth finds, whatever the teeth before it left.
 class ChipLaw {
  public:
-  explicit ChipLaw(const CuttingEdges& edges)
-      : edges_(edges), runout_(cutter::has_runout(edges.cutter())) {}
+  explicit ChipLaw(const CuttingEdges& edges);
 
   /// How many teeth before have to be looked at: all of them with runout, else the last one.
-  int reaches() const { return runout_ ? static_cast<int>(edges_.flutes().size()) : 1; }
+  int reaches() const { return runout_.empty() ? 1 : static_cast<int>(runout_.size()); }
 
   /// The reaches of flute j at a point of its edge: of flute j + 1, j + 2, ..., itself a turn ago.
   ///
@@ -52,8 +52,18 @@ class ChipLaw {
   }
 
  private:
+  /// (C14) of one flute: at the tip and for every mm above it, at no lag and at a quarter turn.
+  struct RadialRunout {
+    std::array<double, 2> at_tip;
+    std::array<double, 2> per_height;
+
+    double at(double z, double cos_lag, double sin_lag) const {
+      return cos_lag * (at_tip[0] + z * per_height[0]) + sin_lag * (at_tip[1] + z * per_height[1]);
+    }
+  };
+
   const CuttingEdges& edges_;
-  bool runout_;
+  std::vector<RadialRunout> runout_;  ///< by flute; empty without
 };
 
 }  // namespace millstudy::force

@@ -21,24 +21,57 @@ class RegimeFinder {
         out_(out),
         at_point_(law.reaches()) {}
 
-  void split(double z1, double z2) { split(z1, smallest_at(z1), z2, smallest_at(z2)); }
+  /// A point of the edge with the smallest of the reaches there.
+  struct Point {
+    double z;
+    int smallest;
+    double value;  ///< of that [mm]
+  };
+  Point at(double z) {
+    look_at(z);
+    int best = 0;
+    for (int m = 1; m < law_.reaches(); ++m) {
+      if (value(m) < value(best)) best = m;
+    }
+    return {z, best, value(best)};
+  }
+
+  /// Of reaches that cross at most once between the points.
+  void split(const Point& low, const Point& high, int depth = 0) {
+    const int m1 = low.smallest, m2 = high.smallest;
+    if (m1 == m2) return keep_positive(low, high, m1);
+    if (depth > 2 * law_.reaches() + 4) return keep_positive(low, at(high.z, m1), m1);
+    const auto difference = [&](double z) {
+      look_at(z);
+      return value(m1) - value(m2);
+    };
+    const double d1 = difference(low.z), d2 = difference(high.z);
+    if (!(d1 < 0.0 && d2 > 0.0)) {  // equal there
+      return d1 < 0.0 ? keep_positive(low, at(high.z, m1), m1)
+                      : keep_positive(at(low.z, m2), high, m2);
+    }
+    const Point between = at(root(low.z, d1, high.z, d2, difference));
+    if (between.value < value(m1) - kEqual && between.smallest != m1 && between.smallest != m2) {
+      split(low, between, depth + 1);
+      split(between, high, depth + 1);
+    } else {
+      keep_positive(low, at(between.z, m1), m1);
+      keep_positive(at(between.z, m2), high, m2);
+    }
+  }
 
   /// Of reaches that may cross more than once: looks between the ends before it takes their word.
-  void split_warily(double z1, double z2, int depth = 0) {
+  void split_warily(const Point& low, const Point& high, int depth = 0) {
     constexpr int kDeepest = 3;
-    const double middle = 0.5 * (z1 + z2);
-    const int m1 = smallest_at(z1), m2 = smallest_at(z2), between = smallest_at(middle);
-    const bool above = value(between) > 0.0;
-    look_at(z1);
-    const bool above1 = value(m1) > 0.0;
-    look_at(z2);
-    const bool above2 = value(m2) > 0.0;
-    const bool hidden = (m1 == m2 && between != m1) || (above1 == above2 && above != above1);
+    const Point middle = at(0.5 * (low.z + high.z));
+    const bool above = middle.value > 0.0, above_low = low.value > 0.0;
+    const bool hidden = (low.smallest == high.smallest && middle.smallest != low.smallest) ||
+                        (above_low == (high.value > 0.0) && above_low != above);
     if (hidden && depth < kDeepest) {
-      split_warily(z1, middle, depth + 1);
-      split_warily(middle, z2, depth + 1);
+      split_warily(low, middle, depth + 1);
+      split_warily(middle, high, depth + 1);
     } else {
-      split(z1, m1, z2, m2);
+      split(low, high);
     }
   }
 
@@ -57,15 +90,6 @@ class RegimeFinder {
 
   double value(int m) const {
     return ChipLaw::reach_over(at_point_[m], feed_, sin_phi_, sin_kappa_, cos_kappa_);
-  }
-
-  int smallest_at(double z) {
-    look_at(z);
-    int best = 0;
-    for (int m = 1; m < law_.reaches(); ++m) {
-      if (value(m) < value(best)) best = m;
-    }
-    return best;
   }
 
   /// Root of f between a and b, of different signs at both: Illinois steps, then bisection.
@@ -91,38 +115,30 @@ class RegimeFinder {
     return 0.5 * (a + b);
   }
 
-  void split(double z1, int m1, double z2, int m2, int depth = 0) {
-    if (m1 == m2 || depth > 2 * law_.reaches() + 4) return keep_positive(z1, z2, m1);
-    const auto difference = [&](double z) {
-      look_at(z);
-      return value(m1) - value(m2);
-    };
-    const double d1 = difference(z1), d2 = difference(z2);
-    if (!(d1 < 0.0 && d2 > 0.0)) return keep_positive(z1, z2, d1 < 0.0 ? m1 : m2);  // equal there
-    const double z = root(z1, d1, z2, d2, difference);
-    const int between = smallest_at(z);
-    if (value(between) < value(m1) - kEqual && between != m1 && between != m2) {
-      split(z1, m1, z, between, depth + 1);
-      split(z, between, z2, m2, depth + 1);
-    } else {
-      keep_positive(z1, z, m1);
-      keep_positive(z, z2, m2);
-    }
+  /// A point with another than the smallest.
+  Point at(double z, int m) {
+    look_at(z);
+    return {z, m, value(m)};
   }
 
-  /// The part of a stretch in which reach m is positive.
-  void keep_positive(double z1, double z2, int m) {
-    const auto thickness = [&](double z) {
-      look_at(z);
-      return value(m);
+  /// The part of a stretch in which reach m, that of both ends, is positive. Goes on with the
+  /// stretch before where that is of the same reach; not where coefficients fall with the chip, for
+  /// a chip that is nearly zero within a long stretch costs digits there.
+  void keep_positive(const Point& low, const Point& high, int m) {
+    if (low.value <= 0.0 && high.value <= 0.0) return;
+    const auto zero = [&] {
+      return root(low.z, low.value, high.z, high.value, [&](double z) { return at(z, m).value; });
     };
-    const double h1 = thickness(z1), h2 = thickness(z2);
-    if (h1 <= 0.0 && h2 <= 0.0) return;
-    if (h1 < 0.0)
-      z1 = root(z1, h1, z2, h2, thickness);
-    else if (h2 < 0.0)
-      z2 = root(z1, h1, z2, h2, thickness);
-    if (z1 < z2) out_.push_back({z1, z2});
+    const double bottom = low.value < 0.0 ? zero() : low.z;
+    const double top = low.value >= 0.0 && high.value < 0.0 ? zero() : high.z;
+    if (!(bottom < top)) return;
+    const bool joins = !edges_.variation().with_chip() && !out_.empty() && reach_ == m;
+    if (joins && out_.back().top == bottom) {
+      out_.back().top = top;
+    } else {
+      out_.push_back({bottom, top});
+    }
+    reach_ = m;
   }
 
   static constexpr double kEqual = 1e-15;  // [mm]
@@ -135,6 +151,7 @@ class RegimeFinder {
   double tip_angle_;
   double tangent_;
   std::vector<Regime>& out_;
+  int reach_ = 0;  ///< of the last stretch
   std::vector<Reach> at_point_;
   double sin_phi_ = 0.0;
   double sin_kappa_ = 1.0;
@@ -154,11 +171,13 @@ void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& fee
     return;
   }
   RegimeFinder finder(edges, law, feed, flute, piece, tip_angle, out);
-  if (crosses_once) return finder.split(z1, z2);
+  if (crosses_once) return finder.split(finder.at(z1), finder.at(z2));
   constexpr int kParts = 16;
-  for (int i = 0; i < kParts; ++i) {
-    finder.split_warily(z1 + (z2 - z1) * i / kParts,
-                        i + 1 == kParts ? z2 : z1 + (z2 - z1) * (i + 1) / kParts);
+  RegimeFinder::Point low = finder.at(z1);
+  for (int i = 1; i <= kParts; ++i) {
+    const RegimeFinder::Point high = finder.at(i == kParts ? z2 : z1 + (z2 - z1) * i / kParts);
+    finder.split_warily(low, high);
+    low = high;
   }
 }
 

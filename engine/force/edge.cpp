@@ -54,9 +54,9 @@ void CuttingEdges::add_pieces(const cutter::Segment& segment, double bottom, dou
   }
 }
 
-double CuttingEdges::pitch_ratio(int flute, double lag) const {
+double CuttingEdges::pitch_ratio(int flute, double lag, int teeth) const {
   const auto count = static_cast<int>(flutes_.size());
-  const int next = (flute + 1) % count;
+  const int next = (flute + teeth) % count;
   const double turn = next <= flute ? core::kTurn : 0.0;
   const double pitch = flutes_[next].position + turn - flutes_[flute].position -
                        (flutes_[next].helix_tangent - flutes_[flute].helix_tangent) * lag;

@@ -59,8 +59,9 @@ class CuttingEdges {
   std::span<const EdgePiece> pieces() const { return pieces_; }
 
   /// (F21): chip thickness of a flute relative to the mean feed per tooth, from the pitch at the
-  /// lag of a point [1]: the mean over the flutes is 1.
-  double pitch_ratio(int flute, double lag) const;
+  /// lag of a point [1]: the mean over the flutes is 1. From further ahead, (F22), if `teeth`, less
+  /// than there are, are looked at instead of one.
+  double pitch_ratio(int flute, double lag, int teeth = 1) const;
 
   /// (F17), (F19): factors of the six coefficients at a node; only for coefficients that do not
   /// depend on the chip.

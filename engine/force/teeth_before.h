@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <span>
 
-#include "force/chip_law.h"
 #include "force/prepared_edges.h"
 #include "force/runout_stretch.h"
 
@@ -20,13 +18,12 @@ class TeethBefore {
         seen_(edges.flutes()[flute].position - edges.cutter().runout.angle),
         zero_(std::remainder(feed.direction, core::kTurn) + edges.cutter().runout.angle),
         count_(static_cast<int>(edges.flutes().size())) {
-    std::array<Reach, RunoutEdge::kMostFlutes> reaches;
-    ChipLaw(edges).find(flute, 0.0, 0.0, std::span(reaches).first(count_));
-    for (int m = 0; m < count_; ++m) {
-      const double ahead = reaches[m].ratio * core::kTurn / count_;
-      before_[m] = {feed.per_tooth * reaches[m].ratio, 1.0 - std::cos(ahead), std::sin(ahead)};
+    for (int m = 0; m < count_ - 1; ++m) {
+      const double ratio = edges.pitch_ratio(flute, 0.0, m + 1);
+      const double ahead = ratio * core::kTurn / count_;
+      before_[m] = {feed.per_tooth * ratio, 1.0 - std::cos(ahead), std::sin(ahead)};
     }
-    before_[count_ - 1].one_less_cosine = before_[count_ - 1].sine = 0.0;  // itself, a turn ago
+    before_[count_ - 1] = {feed.per_tooth * count_, 0.0, 0.0};  // itself, a turn ago
   }
 
   int count() const { return count_; }

@@ -4,9 +4,9 @@
 //   bench_shapes [--tolerance=1e-4] [--benchmark_filter=...]
 //
 // First the sampler against as many discs a tooth as they need for an error of 1e-4 of the peak, or
-// what is asked for; the number is searched for and printed. Then unequal flutes, runout and the
-// size effect against equal flutes, whose prepared series are the fast path. Ratios are of medians.
-// Run it on an idle machine.
+// what is asked for; the number is searched for and printed. Then unequal flutes, runout (also with
+// a tilted axis, which is integrated angle by angle) and the size effect against equal flutes,
+// whose prepared series are the fast path. Ratios are of medians. Run it on an idle machine.
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
@@ -48,7 +48,7 @@ const Cut kCuts[] = {
 };
 
 /// What makes a cutter other than one of equal flutes and constant coefficients.
-enum class Kind { equal, pitch, helix, runout, size_effect };
+enum class Kind { equal, pitch, helix, runout, tilt, size_effect };
 
 const char* name_of(Kind kind) {
   switch (kind) {
@@ -60,6 +60,8 @@ const char* name_of(Kind kind) {
       return "variable_helix";
     case Kind::runout:
       return "runout";
+    case Kind::tilt:
+      return "runout_and_tilt";
     case Kind::size_effect:
       break;
   }
@@ -78,7 +80,8 @@ cutter::Cutter cutter_of(const Cut& cut, int flutes, Kind kind) {
     }
     if (kind == Kind::helix) cutter.helix_angles.push_back(rad_from_deg(31.0 + sign));
   }
-  if (kind == Kind::runout) cutter.runout = {0.01, 0.3};
+  if (kind == Kind::runout || kind == Kind::tilt) cutter.runout = {0.01, 0.3};
+  if (kind == Kind::tilt) cutter.runout.tilt = rad_from_deg(0.05);
   return cutter;
 }
 
@@ -181,7 +184,7 @@ void print_kinds(const baseline::MedianReporter& reporter, const Cut& cut, int f
   const auto* equal = reporter.find(name_of(cut, flutes, Kind::equal));
   if (!equal) return;
   std::printf("%-9s %d flutes: equal %6.2f us", cut.name.c_str(), flutes, 1e-3 * equal->ns);
-  for (const Kind kind : {Kind::pitch, Kind::helix, Kind::runout, Kind::size_effect}) {
+  for (const Kind kind : {Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
     const auto* other = reporter.find(name_of(cut, flutes, kind));
     if (other) std::printf("; %s %.1fx", name_of(kind), other->ns / equal->ns);
   }
@@ -193,7 +196,8 @@ void print_kinds(const baseline::MedianReporter& reporter, const Cut& cut, int f
 
 void print_cold(const baseline::MedianReporter& reporter, const Cut& cut, int flutes) {
   std::printf("%-9s %d flutes: cold start", cut.name.c_str(), flutes);
-  for (const Kind kind : {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::size_effect}) {
+  for (const Kind kind :
+       {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
     const auto* start = reporter.find("cold_" + name_of(cut, flutes, kind));
     if (start) std::printf("; %s %.0f us", name_of(kind), 1e-3 * start->ns);
   }
@@ -224,7 +228,7 @@ int main(int argc, char** argv) {
   for (const Cut& cut : kCuts) {
     for (const int flutes : {2, 4}) {
       for (const Kind kind :
-           {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::size_effect}) {
+           {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
         const std::string name = name_of(cut, flutes, kind);
         baseline::add(name, [&, flutes, kind](auto& state) { sample(state, cut, flutes, kind); });
         baseline::add("cold_" + name,
