@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <iterator>
 #include <list>
@@ -17,7 +18,9 @@ namespace millstudy::core {
 /// computed again only if it was dropped meanwhile. What is in the cache never changes a result.
 ///
 /// What it holds is bounded by the sum of the values' costs (1 each unless a cost is given).
-/// Two threads that miss the same key at once both compute; neither waits for the other.
+/// Two threads that miss the same key at once both compute; neither waits for the other. Where
+/// nothing was found for long, as in a sweep that never comes back to a key, threads leave the
+/// cache alone but for now and then: it would only hold their memory and make them wait.
 template <class T>
 class SharedCache {
  public:
@@ -30,13 +33,26 @@ class SharedCache {
   /// The value for the key; make() is called outside the lock on a miss.
   template <class Make>
   std::shared_ptr<const T> get(const std::string& key, const Make& make) {
+    if (is_left_alone()) return std::make_shared<const T>(make());
     if (std::shared_ptr<const T> found = find(key)) return found;
     auto made = std::make_shared<const T>(make());
     insert(key, made);
     return made;
   }
 
+  static constexpr int kPatience = 1024;  ///< misses in a row before it is left alone
+  /// Two calls one after the other of so many go on to look: an odd number, so that of keys that
+  /// come in pairs both are among them.
+  static constexpr int kNowAndThen = 65;
+
  private:
+  bool is_left_alone() const {
+    if (misses_in_a_row_.load(std::memory_order_relaxed) < kPatience) return false;
+    thread_local int times = 0;
+    times = (times + 1) % kNowAndThen;
+    return times >= 2;
+  }
+
   struct Entry {
     std::string key;
     std::shared_ptr<const T> value;
@@ -49,12 +65,15 @@ class SharedCache {
     const auto at = index_.find(key);
     if (at == index_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, at->second);
+    misses_in_a_row_.store(0, std::memory_order_relaxed);
     return at->second->value;
   }
 
   void insert(const std::string& key, std::shared_ptr<const T> value) {
     Entries dropped;  // is destroyed after the lock is given back: values can be large
     const std::lock_guard lock(mutex_);
+    const int misses = misses_in_a_row_.load(std::memory_order_relaxed);
+    if (misses < kPatience) misses_in_a_row_.store(misses + 1, std::memory_order_relaxed);
     if (index_.contains(key)) return;
     held_ += cost_(*value);
     entries_.push_front({key, std::move(value)});
@@ -82,6 +101,7 @@ class SharedCache {
   std::size_t capacity_;
   Cost cost_;
   std::size_t held_ = 0;
+  std::atomic<int> misses_in_a_row_ = 0;  ///< is written under the lock
   std::mutex mutex_;
   Entries entries_;  // most recently used first
   std::unordered_map<std::string, typename Entries::iterator> index_;
