@@ -20,23 +20,24 @@ ChipLaw::ChipLaw(const CuttingEdges& edges) : edges_(edges) {
   }
 }
 
-void ChipLaw::find(int flute, double z, double lag, std::span<Reach> out) const {
+void ChipLaw::find(int flute, const EdgePoint& point, std::span<Reach> out) const {
   if (runout_.empty()) {
-    out[0] = {edges_.pitch_ratio(flute, lag), 0.0};
+    out[0] = {edges_.pitch_ratio(flute, point.lag), 0.0};
     return;
   }
   const std::vector<cutter::Flute>& flutes = edges_.flutes();
   const auto count = static_cast<int>(flutes.size());
+  const double radius = runout_[flute].at(point.z, point.direction);
   double tangent = flutes[flute].helix_tangent;
-  double c = std::cos(tangent * lag), s = std::sin(tangent * lag);
-  const double radius = runout_[flute].at(z, c, s);
+  std::array<double, 2> lag = point.direction;
   for (int m = 1; m < count; ++m) {
-    const int other = (flute + m) % count;
+    const int other = flute + m < count ? flute + m : flute + m - count;
     if (flutes[other].helix_tangent != tangent) {
       tangent = flutes[other].helix_tangent;
-      c = std::cos(tangent * lag), s = std::sin(tangent * lag);
+      lag = {std::cos(tangent * point.lag), std::sin(tangent * point.lag)};
     }
-    out[m - 1] = {edges_.pitch_ratio(flute, lag, m), radius - runout_[other].at(z, c, s)};
+    out[m - 1] = {edges_.pitch_ratio(flute, point.lag, m),
+                  radius - runout_[other].at(point.z, lag)};
   }
   out[count - 1] = {static_cast<double>(count), 0.0};
 }

@@ -28,9 +28,9 @@ class ChipLaw {
 
   /// The reaches of flute j at a point of its edge: of flute j + 1, j + 2, ..., itself a turn ago.
   ///
-  /// @param z, lag  of the point
-  /// @param out     shape (reaches())
-  void find(int flute, double z, double lag, std::span<Reach> out) const;
+  /// @param point  of flute j
+  /// @param out    shape (reaches())
+  void find(int flute, const EdgePoint& point, std::span<Reach> out) const;
 
   /// h [mm] = (reach over the feed) . n, the smallest of all reaches counts, never negative.
   ///
@@ -57,8 +57,8 @@ class ChipLaw {
     std::array<double, 2> at_tip;
     std::array<double, 2> per_height;
 
-    double at(double z, double cos_lag, double sin_lag) const {
-      return cos_lag * (at_tip[0] + z * per_height[0]) + sin_lag * (at_tip[1] + z * per_height[1]);
+    double at(double z, const std::array<double, 2>& lag) const {
+      return lag[0] * (at_tip[0] + z * per_height[0]) + lag[1] * (at_tip[1] + z * per_height[1]);
     }
   };
 

@@ -16,7 +16,8 @@ class RegimeFinder {
         feed_(feed),
         flute_(flute),
         piece_(piece),
-        tip_angle_(tip_angle),
+        sin_tip_(std::sin(tip_angle)),
+        cos_tip_(std::cos(tip_angle)),
         tangent_(edges.flutes()[flute].helix_tangent),
         out_(out),
         at_point_(law.reaches()) {}
@@ -78,9 +79,9 @@ class RegimeFinder {
  private:
   /// Values of all reaches at a height go to at_point_ and sines_.
   void look_at(double z) {
-    const double lag = edges_.envelope().lag(z);
-    law_.find(flute_, z, lag, at_point_);
-    sin_phi_ = std::sin(tip_angle_ - tangent_ * lag);
+    const EdgePoint point = edge_point(edges_.envelope(), tangent_, z);
+    law_.find(flute_, point, at_point_);
+    sin_phi_ = sin_tip_ * point.direction[0] - cos_tip_ * point.direction[1];
     // In the plane all reaches have the factor sin(kappa), which is left out: it is zero at a tip.
     if (feed_.slope == 0.0) return;
     const double kappa = piece_.segment.kappa_at(z);
@@ -148,7 +149,8 @@ class RegimeFinder {
   const Feed& feed_;
   int flute_;
   const EdgePiece& piece_;
-  double tip_angle_;
+  double sin_tip_;
+  double cos_tip_;
   double tangent_;
   std::vector<Regime>& out_;
   int reach_ = 0;  ///< of the last stretch

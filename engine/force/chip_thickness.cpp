@@ -63,7 +63,8 @@ std::vector<double> largest_chip_thickness(const CuttingEdges& edges, double sin
     for (const EdgePiece& piece : edges.pieces()) {
       const double found = largest_over(piece.bottom, piece.top, [&](double z) {
         const double kappa = piece.segment.kappa_at(z);
-        law.find(flute, z, edges.envelope().lag(z), reaches);
+        law.find(flute, edge_point(edges.envelope(), edges.flutes()[flute].helix_tangent, z),
+                 reaches);
         return ChipLaw::thickness(reaches, feed, sin_phi, std::sin(kappa), std::cos(kappa));
       });
       largest = std::max(largest, found);

@@ -56,10 +56,11 @@ void CuttingEdges::add_pieces(const cutter::Segment& segment, double bottom, dou
 
 double CuttingEdges::pitch_ratio(int flute, double lag, int teeth) const {
   const auto count = static_cast<int>(flutes_.size());
-  const int next = (flute + teeth) % count;
-  const double turn = next <= flute ? core::kTurn : 0.0;
-  const double pitch = flutes_[next].position + turn - flutes_[flute].position -
-                       (flutes_[next].helix_tangent - flutes_[flute].helix_tangent) * lag;
+  const bool wraps = flute + teeth >= count;
+  const cutter::Flute& own = flutes_[flute];
+  const cutter::Flute& next = flutes_[wraps ? flute + teeth - count : flute + teeth];
+  const double pitch = next.position + (wraps ? core::kTurn : 0.0) - own.position -
+                       (next.helix_tangent - own.helix_tangent) * lag;
   return pitch * count / core::kTurn;
 }
 
@@ -139,6 +140,11 @@ EdgeNode CuttingEdges::disc(double helix_tangent, int n, int i) const {
   node.length = node.width * envelope_.edge_per_width(helix_tangent, node.radius, node.sin_kappa,
                                                       envelope_.lag_slope(z));
   return node;
+}
+
+EdgePoint edge_point(const cutter::Envelope& envelope, double helix_tangent, double z) {
+  const double lag = envelope.lag(z), psi = helix_tangent * lag;
+  return {z, lag, {std::cos(psi), std::sin(psi)}};
 }
 
 }  // namespace millstudy::force

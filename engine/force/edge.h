@@ -31,6 +31,16 @@ struct EdgeNode {
   double length;  ///< dS [mm]
 };
 
+/// A point of the edge of a flute.
+struct EdgePoint {
+  double z;                         ///< [mm]
+  double lag;                       ///< of the envelope: psi over the tangent of the helix [rad]
+  std::array<double, 2> direction;  ///< cos and sin of psi
+};
+
+/// @param z  [mm], from 0 to the length of the envelope
+EdgePoint edge_point(const cutter::Envelope& envelope, double helix_tangent, double z);
+
 /// A stretch of one segment over which integrands are smooth and span a bounded range, so that few
 /// nodes or terms are enough.
 struct EdgePiece {

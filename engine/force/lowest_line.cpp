@@ -91,11 +91,6 @@ class Walk {
 
 }  // namespace
 
-EdgePoint edge_point(const cutter::Envelope& envelope, double helix_tangent, double z) {
-  const double lag = envelope.lag(z), psi = helix_tangent * lag;
-  return {z, lag, {std::cos(psi), std::sin(psi)}};
-}
-
 void find_lowest(const cutter::Envelope& envelope, double helix_tangent,
                  std::span<const ChipLine> lines, const EdgePoint& low, const EdgePoint& high,
                  std::vector<LineStretch>& out) {

@@ -23,16 +23,6 @@ struct ChipLine {
   double at(const std::array<double, 2>& lag) const { return a * lag[0] + b * lag[1]; }
 };
 
-/// A point of an edge.
-struct EdgePoint {
-  double z;                         ///< [mm]
-  double lag;                       ///< of the envelope: psi over the tangent of the helix [rad]
-  std::array<double, 2> direction;  ///< cos and sin of psi
-};
-
-/// @param z  [mm], from 0 to the length of the envelope
-EdgePoint edge_point(const cutter::Envelope& envelope, double helix_tangent, double z);
-
 /// A stretch of an edge and the line that is the lowest there.
 struct LineStretch {
   Regime regime;

@@ -42,16 +42,18 @@ struct NonlinearForce::Sum {
   const Coefficients& coefficients;
   const Feed& feed;
   int flute;
-  double tip_angle;
+  double sin_tip;
+  double cos_tip;
   Rows rows;
   std::vector<Reach> reaches;
   std::array<double, kRows> force{};
 
   void add(const EdgeNode& node) {
-    const double phi = tip_angle - edges.flutes()[flute].helix_tangent * node.lag;  // (F5)
-    const double sin_phi = std::sin(phi);
-    const double cos_phi = std::cos(phi);
-    law.find(flute, node.z, node.lag, reaches);
+    const double psi = edges.flutes()[flute].helix_tangent * node.lag;
+    const double c = std::cos(psi), s = std::sin(psi);
+    const double sin_phi = sin_tip * c - cos_tip * s;  // (F5)
+    const double cos_phi = cos_tip * c + sin_tip * s;
+    law.find(flute, {node.z, node.lag, {c, s}}, reaches);
     const double h = ChipLaw::thickness(reaches, feed, sin_phi, node.sin_kappa, node.cos_kappa);
     if (h <= 0.0) return;
     const std::array<double, 6> k = coefficients_at(edges, coefficients, flute, node, h);
@@ -71,8 +73,15 @@ std::array<double, kRows> NonlinearForce::of_flute(int flute, double tip_angle,
                                                    const Feed& feed, Rows rows) const {
   const CuttingEdges& edges = *edges_;
   const double tangent = edges.flutes()[flute].helix_tangent;
-  Sum sum{edges, law_,      coefficients, feed,
-          flute, tip_angle, rows,         std::vector<Reach>(law_.reaches())};
+  Sum sum{edges,
+          law_,
+          coefficients,
+          feed,
+          flute,
+          std::sin(tip_angle),
+          std::cos(tip_angle),
+          rows,
+          std::vector<Reach>(law_.reaches())};
   if (edge_rule_.rule == Rule::discs) {
     for (const Arc& arc : arcs) {
       for (int i = 0; i < edge_rule_.discs; ++i) {

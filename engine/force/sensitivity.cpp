@@ -253,9 +253,9 @@ ForceSensitivity::ForceSensitivity(const cutter::Cutter& cutter, const Engagemen
 
 /// The reach that decides the chip at a height.
 int ForceSensitivity::smallest_at(const Tooth& tooth, double z) {
-  const double lag = edges_.envelope().lag(z);
-  law_.find(tooth.flute, z, lag, reaches_);
-  const double sin_phi = std::sin(tooth.tip_angle - tooth.tangent * lag);
+  const EdgePoint point = edge_point(edges_.envelope(), tooth.tangent, z);
+  law_.find(tooth.flute, point, reaches_);
+  const double sin_phi = std::sin(tooth.tip_angle - tooth.tangent * point.lag);
   const auto value = [&](const Reach& reach) {
     return ChipLaw::reach_over(reach, tooth.feed, sin_phi, 1.0, 0.0);
   };

@@ -67,7 +67,8 @@ TEST(ChipThickness, IsThatOfADenseSearchWithRunout) {
         for (int i = 0; i <= 400; ++i) {
           const double z = piece.bottom + (piece.top - piece.bottom) * i / 400;
           const double kappa = piece.segment.kappa_at(z);
-          law.find(flute, z, edges.envelope().lag(z), reaches);
+          law.find(flute, edge_point(edges.envelope(), edges.flutes()[flute].helix_tangent, z),
+                   reaches);
           for (int n = 0; n <= 60; ++n) {
             const double phi = arc.entry_angle + (arc.exit_angle - arc.entry_angle) * n / 60;
             searched = std::max(searched, ChipLaw::thickness(reaches, feed, std::sin(phi),

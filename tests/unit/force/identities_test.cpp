@@ -196,7 +196,8 @@ TEST(Runout, RemovesTheMaterialThatIsThere) {
           const double half = 0.5 * (arc.exit_angle - arc.entry_angle);
           const double phi = arc.entry_angle + half * (1.0 + rule.nodes[i]);
           for (int j = 0; j < cutter.flutes; ++j) {
-            law.find(j, node.z, node.lag, reaches);
+            law.find(j, edge_point(edges.envelope(), edges.flutes()[j].helix_tangent, node.z),
+                     reaches);
             area +=
                 half * rule.weights[i] * node.width *
                 ChipLaw::thickness(reaches, {feed}, std::sin(phi), node.sin_kappa, node.cos_kappa);

@@ -111,7 +111,7 @@ TEST(ChipLaw, SumsToTheFeedOfARevolutionAtEveryPoint) {
     const double sin_kappa = std::sin(edges.envelope().segment_at(z).kappa_at(z));
     double sum = 0.0;
     for (int j = 0; j < cutter.flutes; ++j) {
-      law.find(j, z, edges.envelope().lag(z), reaches);
+      law.find(j, edge_point(edges.envelope(), edges.flutes()[j].helix_tangent, z), reaches);
       const double h = ChipLaw::thickness(reaches, {feed}, std::sin(phi), sin_kappa, 0.0);
       missed += h == 0.0;
       sum += h;
