@@ -52,7 +52,7 @@ class ChipLaw {
   }
 
  private:
-  /// (C14) of one flute: at the tip and for every mm above it, at no lag and at a quarter turn.
+  /// (C14) of one flute, at the tip and for every mm above it: at no lag and at a quarter turn.
   struct RadialRunout {
     std::array<double, 2> at_tip;
     std::array<double, 2> per_height;

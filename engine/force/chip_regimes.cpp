@@ -77,7 +77,7 @@ class RegimeFinder {
   }
 
  private:
-  /// Values of all reaches at a height go to at_point_ and sines_.
+  /// Makes value() that of a height.
   void look_at(double z) {
     const EdgePoint point = edge_point(edges_.envelope(), tangent_, z);
     law_.find(flute_, point, at_point_);

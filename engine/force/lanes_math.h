@@ -18,8 +18,8 @@ struct SineAndCosine {
   Lanes cosine;
 };
 
-/// The angle in 0 .. pi of a vector whose y >= 0, to 5.2e-16 absolute (measured); finite for (0,
-/// 0).
+/// The angle in 0 .. pi of a vector whose y >= 0, to 5.2e-16 absolute (measured); of none it is
+/// some finite number.
 ///
 /// By the addition theorem from 0, pi/4 or pi/2 (Cephes), so that a polynomial in Chebyshev's
 /// points is right to 1.5e-17, summed in pairs: one waits for the other as little as can be.

@@ -214,27 +214,25 @@ class RunoutEdge::Sweep {
         const ForceLanes force = force_at<cut>(chips.data(), place, changes);
         x = force.x, y = force.y, z = force.z, torque = force.torque;
       });
-      add_crossings<RunoutStretch::kChipSums, 2>(run, changes.of_teeth, part.last, lower_angle_at);
-      add_crossings<RunoutStretch::kZeroSums, 1>(run, changes.of_chip, part.last, lower_angle_at);
+      add_crossings<RunoutStretch::kChipSums>(run, changes.of_teeth, part.last, lower_angle_at);
+      add_crossings<RunoutStretch::kZeroSums>(run, changes.of_chip, part.last, lower_angle_at);
     }
   }
 
   /// Adds the stretches up to the crossings. Each is a long chain of operations, of which the
   /// processor does several at a time where no decisions come between.
-  template <int kSums, int kVectors, class LowerAngle>
+  template <int kSums, class LowerAngle>
   void add_crossings(SamplingRun& run, const Crossings& crossings, int last,
                      const LowerAngle& lower_angle_at) const {
-    std::array<Lanes, Crossings::kMost + kVectors> variables;
+    std::array<Lanes, Crossings::kMost + 1> variables;
     for (int i = 0; i < crossings.count; ++i) {
       const Lanes below = part_below(crossings.line(i).zero(), lower_angle_at(crossings.first[i]));
       variables[i] = stretch_.variable_at(below);
     }
-    for (int i = 0; i < kVectors; ++i) variables[crossings.count + i] = Lanes{};
-    for (int first = 0; first < crossings.count; first += kVectors) {
-      std::array<Lanes, kVectors> t;
-      std::copy_n(variables.begin() + first, kVectors, t.begin());
-      const auto sums = stretch_.zero_sums<kSums>(t);
-      for (int i = first; i < std::min(first + kVectors, crossings.count); ++i) {
+    variables[crossings.count] = Lanes{};
+    for (int first = 0; first < crossings.count; first += 2) {
+      const auto sums = stretch_.zero_sums<kSums>({variables[first], variables[first + 1]});
+      for (int i = first; i < std::min(first + 2, crossings.count); ++i) {
         const ForceLanes force = stretch_.up_to_zero(crossings.line(i), sums[i - first]);
         const int n = crossings.first[i];
         run.accumulate({n, std::min(n + kLanes, last)},

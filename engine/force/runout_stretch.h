@@ -163,11 +163,18 @@ class RunoutStretch {
   /// The variable of zero_sums() at which they are those of a part.
   [[gnu::always_inline]] Lanes variable_at(const Lanes& part) const { return variable_.at(part); }
 
-  /// The first kSums of the series that up_to_zero() needs.
-  template <int kSums, std::size_t kVectors>
-  [[gnu::always_inline]] std::array<std::array<Lanes, kSums>, kVectors> zero_sums(
-      const std::array<Lanes, kVectors>& t) const {
-    return sum_series<kSums, kZeroSums>(kind_, zero_terms_.front().data(), zero_terms_.size(), t);
+  /// The first kSums of the series that up_to_zero() needs: four after four, at two vectors
+  /// abreast.
+  template <int kSums>
+  [[gnu::always_inline]] std::array<std::array<Lanes, kSums>, 2> zero_sums(
+      const std::array<Lanes, 2>& t) const {
+    std::array<std::array<Lanes, kSums>, 2> sums;
+    for (int k = 0; k < kSums; k += kRows) {
+      const auto four = sum_series<kRows, kZeroSums>(kind_, zero_terms_.front().data() + k,
+                                                     zero_terms_.size(), t);
+      for (int i = 0; i < 2; ++i) std::copy(four[i].begin(), four[i].end(), sums[i].begin() + k);
+    }
+    return sums;
   }
 
   static constexpr int kChipSums = kRows;  ///< those of the chip alone
