@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "force/lanes_math.h"
+#include "force/line_changes.h"
 #include "force/prepared_edges.h"
 #include "force/runout_stretch.h"
 #include "force/teeth_before.h"
@@ -13,8 +13,6 @@
 
 namespace millstudy::force {
 namespace {
-
-constexpr double kHuge = std::numeric_limits<double>::max();
 
 /// The smallest of the chips at a point of the edge.
 struct Smallest {
@@ -31,19 +29,6 @@ struct Smallest {
 [[gnu::always_inline]] inline Line line_of(const Smallest& smallest) {
   const auto is_chip = smallest.value >= 0.0;
   return {select(is_chip, smallest.chip, ChipLanes{}), is_chip ? Lanes{} + 1.0 : Lanes{}};
-}
-
-/// Where a chip is zero, as a fraction of positive denominator: compared without division.
-struct Root {
-  Lanes over;
-  Lanes under;
-
-  auto operator<(const Root& other) const { return over * other.under < other.over * under; }
-};
-
-template <class Mask>
-[[gnu::always_inline]] inline Root select(const Mask& mask, const Root& a, const Root& b) {
-  return {mask ? a.over : b.over, mask ? a.under : b.under};
 }
 
 /// Which end of the stretch in cut is not that of the piece, but where a limit of the arc is.
@@ -161,35 +146,6 @@ class RunoutEdge::Sweep {
     if (lower.which != upper.which || (lower.value < 0.0) != (upper.value < 0.0)) return kSeveral;
     return lower.value < 0.0 ? kNone : lower.which;
   }
-
-  /// Where, at the angles of vectors, the edge crosses from one line to another.
-  struct Crossings {
-    static constexpr int kMost = 64;
-
-    /// @param n     the first angle of the vector
-    /// @param chip  difference of that below the crossing and that above
-    /// @param edge  likewise
-    template <class Mask>
-    void push(const Mask& where, int n, const ChipLanes& chip, double edge_forces) {
-      first[count] = n;
-      p[count] = where ? chip.p : Lanes{};
-      q[count] = where ? chip.q : Lanes{};
-      edge[count] = where ? Lanes{} + edge_forces : Lanes{};
-      ++count;
-    }
-    Line line(int i) const { return {{p[i], q[i]}, edge[i]}; }
-
-    int count = 0;
-    std::array<int, kMost> first;
-    std::array<Lanes, kMost> p;
-    std::array<Lanes, kMost> q;
-    std::array<Lanes, kMost> edge;
-  };
-
-  struct Changes {
-    Crossings of_teeth;  ///< from the chip of one to that of another
-    Crossings of_chip;   ///< where it begins or ends
-  };
 
   template <Cut cut>
   void add(SamplingRun& run, const Pass& pass, double from, double to) const {
@@ -312,82 +268,12 @@ class RunoutEdge::Sweep {
     // A smallest chip that is negative at both ends is so between them; of two one cannot know.
     const auto crosses =
         (below.chip.p != above.chip.p) | (below.chip.q != above.chip.q) | (line.edge != last.edge);
-    if (any(crosses)) cross(line, last, chips, {place.n, bottom, top}, crosses, changes);
+    if (any(crosses)) {
+      const EdgeInCut edge = {place.n, edge_.hand_, {chips, chips + before_.count()}, bottom, top};
+      note_changes(edge, crosses, line, last, changes);
+    }
     force += cut_above ? up_to(upper_limit, place, line) : stretch_.whole(top, line);
     return force;
-  }
-
-  /// What of the edge is in cut, at a vector of angles.
-  struct InCut {
-    int n;  ///< index of the first angle
-    SineAndCosine bottom;
-    SineAndCosine top;
-  };
-
-  /// Walks up the edge from line to line and notes each change. `line` is that at the bottom, and
-  /// then that at the top, which should be `last`.
-  template <class Mask>
-  [[gnu::always_inline]] void cross(Line& line, const Line& last, const ChipLanes* chips,
-                                    const InCut& in_cut, const Mask& crosses,
-                                    Changes& changes) const {
-    // Over sin(phi) chips are linear in the cotangent, which goes up with the edge of a right-hand
-    // cutter. At 0 and pi the sine may come out below zero by rounding: that would turn the sign.
-    const double hand = edge_.hand_;
-    const Lanes one = Lanes{} + 1.0;
-    const auto root_at = [&](const SineAndCosine& phi) -> Root {
-      return {hand * phi.cosine, larger(phi.sine, Lanes{} + 1e-300)};
-    };
-    const Root at_top = root_at(in_cut.top);
-    // The chip begins where the last of the rising ones becomes positive, unless one of the others
-    // is negative by then, or was at the bottom.
-    const auto starts_without = crosses & (line.edge == 0.0);
-    if (any(starts_without)) {
-      Root begin = {Lanes{} - kHuge, one}, end = at_top;
-      ChipLanes first{};
-      for (int m = 0; m < before_.count(); ++m) {
-        const Lanes p = hand * chips[m].p, q = chips[m].q;
-        const Root rises = {-q, p}, falls = {q, -p};
-        const auto later = (p > 0.0) & (begin < rises);
-        begin = select(later, rises, begin);
-        first = select(later, chips[m], first);
-        end = select((p < 0.0) & (falls < end), falls, end);
-        end = select((p == 0.0) & (q < 0.0), Root{Lanes{} - kHuge, one}, end);
-      }
-      const auto where =
-          starts_without & (begin.over > -kHuge) & (begin < end) & (root_at(in_cut.bottom) < end);
-      if (any(where)) {
-        changes.of_chip.push(where, in_cut.n, {-first.p, -first.q}, -1.0);
-        line = {select(where, first, line), where ? one : line.edge};
-      }
-    }
-    // Slopes fall from chip to chip, so that no more than all can follow.
-    for (int step = 0; step <= before_.count(); ++step) {
-      const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
-      if (!any(walks)) return;
-      const Lanes p = hand * line.p;
-      const auto falls = p < 0.0;
-      Root end = {falls ? line.q : Lanes{} + kHuge, falls ? -p : one};
-      ChipLanes next{};
-      auto is_chip = next.p != 0.0;
-      for (int m = 0; m < before_.count(); ++m) {
-        const Root crossing = {chips[m].q - line.q, p - hand * chips[m].p};
-        const auto sooner = (crossing.under > 0.0) & (crossing < end);
-        end = select(sooner, crossing, end);
-        next = select(sooner, chips[m], next);
-        is_chip |= sooner;
-      }
-      const auto where = walks & (line.edge > 0.0) & (end < at_top);
-      const auto ends = where & ~is_chip, goes_on = where & is_chip;
-      if (any(goes_on)) {
-        changes.of_teeth.push(goes_on, in_cut.n, {line.p - next.p, line.q - next.q}, 0.0);
-      }
-      if (any(ends)) {
-        changes.of_chip.push(ends, in_cut.n, line, 1.0);
-      } else if (!any(goes_on)) {
-        return;
-      }
-      line = {select(where, next, line), ends ? Lanes{} : line.edge};
-    }
   }
 
   const RunoutEdge& edge_;

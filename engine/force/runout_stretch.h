@@ -10,6 +10,7 @@
 #include "force/edge_moments.h"
 #include "force/harmonics.h"
 #include "force/lanes_math.h"
+#include "force/sampling_run.h"
 
 /// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
 namespace millstudy::force {
