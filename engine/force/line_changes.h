@@ -25,9 +25,13 @@ template <class Mask>
   return {mask ? a.over : b.over, mask ? a.under : b.under};
 }
 
-/// Where, at the angles of vectors, the edge crosses from one line to another.
+/// Where, at the angles of a few vectors, the edge crosses from one line to another. What is noted
+/// is there; the rest of the memory is not touched.
 struct Crossings {
   static constexpr int kMost = 64;
+  /// Vectors that there is room for: of each note_changes() notes the beginning of the chip and, in
+  /// up to a step for every tooth and one more, what it gives way to.
+  static constexpr int vectors(int teeth) { return kMost / (teeth + 2); }
 
   /// @param n     the first angle of the vector
   /// @param chip  difference of that below the crossing and that above
@@ -49,6 +53,7 @@ struct Crossings {
   std::array<Lanes, kMost> edge;
 };
 
+/// Those whose edge forces stay, and those whose do not.
 struct Changes {
   Crossings of_teeth;  ///< from the chip of one to that of another
   Crossings of_chip;   ///< where it begins or ends
@@ -99,7 +104,7 @@ template <class Mask>
       line = {select(where, first, line), where ? one : line.edge};
     }
   }
-  // Slopes fall from chip to chip, so that no more than all can follow.
+  // Slopes fall from chip to chip, so that no more than all can follow; see Crossings::vectors().
   for (std::size_t step = 0; step <= in_cut.chips.size(); ++step) {
     const auto walks = crosses & ((line.p != last.p) | (line.q != last.q));
     if (!any(walks)) return;

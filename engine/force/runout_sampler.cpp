@@ -158,7 +158,7 @@ class RunoutEdge::Sweep {
     };
     std::array<ChipLanes, kMostFlutes> chips;
     Changes changes;
-    const int together = kLanes * (Crossings::kMost / (before_.count() + 2));
+    const int together = kLanes * Crossings::vectors(before_.count());
     for (IndexRange part = indices; part.first < indices.last; part.first += together) {
       part.last = std::min(part.first + together, indices.last);
       changes.of_teeth.count = changes.of_chip.count = 0;

@@ -119,7 +119,7 @@ class RunoutStretch {
                  upper, line);
   }
 
-  /// The same as harmonics of the tip's angle, which is `shift` ahead of that of the upper end.
+  /// All of the piece as harmonics of the tip's angle, `shift` ahead of that of the upper end.
   Harmonics whole(const Angle& shift, const LineOfTip& line) const {
     using Complex = std::complex<double>;
     const Worths<double>& w = whole_;

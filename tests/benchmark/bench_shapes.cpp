@@ -49,6 +49,8 @@ const Cut kCuts[] = {
 
 /// What makes a cutter other than one of equal flutes and constant coefficients.
 enum class Kind { equal, pitch, helix, runout, tilt, size_effect };
+constexpr Kind kKinds[] = {Kind::equal,  Kind::pitch, Kind::helix,
+                           Kind::runout, Kind::tilt,  Kind::size_effect};
 
 const char* name_of(Kind kind) {
   switch (kind) {
@@ -184,9 +186,9 @@ void print_kinds(const baseline::MedianReporter& reporter, const Cut& cut, int f
   const auto* equal = reporter.find(name_of(cut, flutes, Kind::equal));
   if (!equal) return;
   std::printf("%-9s %d flutes: equal %6.2f us", cut.name.c_str(), flutes, 1e-3 * equal->ns);
-  for (const Kind kind : {Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
+  for (const Kind kind : kKinds) {
     const auto* other = reporter.find(name_of(cut, flutes, kind));
-    if (other) std::printf("; %s %.1fx", name_of(kind), other->ns / equal->ns);
+    if (other && other != equal) std::printf("; %s %.1fx", name_of(kind), other->ns / equal->ns);
   }
   const auto* pitch = reporter.find(name_of(cut, flutes, Kind::pitch));
   const auto* runout = reporter.find(name_of(cut, flutes, Kind::runout));
@@ -196,8 +198,7 @@ void print_kinds(const baseline::MedianReporter& reporter, const Cut& cut, int f
 
 void print_cold(const baseline::MedianReporter& reporter, const Cut& cut, int flutes) {
   std::printf("%-9s %d flutes: cold start", cut.name.c_str(), flutes);
-  for (const Kind kind :
-       {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
+  for (const Kind kind : kKinds) {
     const auto* start = reporter.find("cold_" + name_of(cut, flutes, kind));
     if (start) std::printf("; %s %.0f us", name_of(kind), 1e-3 * start->ns);
   }
@@ -227,8 +228,7 @@ int main(int argc, char** argv) {
   }
   for (const Cut& cut : kCuts) {
     for (const int flutes : {2, 4}) {
-      for (const Kind kind :
-           {Kind::equal, Kind::pitch, Kind::helix, Kind::runout, Kind::tilt, Kind::size_effect}) {
+      for (const Kind kind : kKinds) {
         const std::string name = name_of(cut, flutes, kind);
         baseline::add(name, [&, flutes, kind](auto& state) { sample(state, cut, flutes, kind); });
         baseline::add("cold_" + name,
