@@ -42,4 +42,19 @@ void ChipLaw::find(int flute, const EdgePoint& point, std::span<Reach> out) cons
   out[count - 1] = {static_cast<double>(count), 0.0};
 }
 
+std::vector<ChipLaw::ReachAlong> ChipLaw::along(int flute) const {
+  const int count = reaches();
+  const RadialRunout& own = runout_[flute];
+  std::vector<ReachAlong> all;
+  for (int m = 1; m < count; ++m) {
+    const RadialRunout& other = runout_[(flute + m) % count];
+    all.push_back(
+        {edges_.pitch_ratio(flute, 0.0, m),
+         {own.at_tip[0] - other.at_tip[0], own.at_tip[1] - other.at_tip[1]},
+         {own.per_height[0] - other.per_height[0], own.per_height[1] - other.per_height[1]}});
+  }
+  all.push_back({static_cast<double>(count), {}, {}});
+  return all;
+}
+
 }  // namespace millstudy::force

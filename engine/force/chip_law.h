@@ -32,6 +32,16 @@ class ChipLaw {
   /// @param out    shape (reaches())
   void find(int flute, const EdgePoint& point, std::span<Reach> out) const;
 
+  /// One reach along an edge, of flutes of one helix angle: `ahead` is cos(psi) (at_tip[0] + z
+  /// per_height[0]) + sin(psi) (at_tip[1] + z per_height[1]), psi the lag angle.
+  struct ReachAlong {
+    double ratio;
+    std::array<double, 2> at_tip;      ///< [mm]
+    std::array<double, 2> per_height;  ///< [mm/mm]
+  };
+  /// Those of flute j, as find() gives them; only with runout.
+  std::vector<ReachAlong> along(int flute) const;
+
   /// h [mm] = (reach over the feed) . n, the smallest of all reaches counts, never negative.
   ///
   /// @param sin_phi  of the immersion angle of the point

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "force/chip_regimes.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 namespace millstudy::force {
 namespace {
@@ -160,22 +164,83 @@ class RegimeFinder {
   double cos_kappa_ = 0.0;
 };
 
+/// Heights between which the difference of any two reaches, or of one and none, is zero once, where
+/// all flutes have one helix angle and are fed in the plane: such a one is Re(conj(Z) exp(i psi)),
+/// Z going along a line with height.
+///
+/// Its phase, the lag psi less that of Z, stands still where abs(Z)^2 is in proportion to dz/dpsi,
+/// which is linear in z: a quadratic equation. Between, it goes one way, and by less than half a
+/// turn if the lag does by less than a quarter, and Z, which turns by no more than half of one, is
+/// cut where it is next to the origin.
+std::vector<double> heights_between_zeros(const CuttingEdges& edges, const ChipLaw& law,
+                                          const Feed& feed, int flute, double tip_angle, double z1,
+                                          double z2) {
+  using Complex = std::complex<double>;
+  const cutter::Envelope& envelope = edges.envelope();
+  const double tangent = edges.flutes()[flute].helix_tangent;
+  std::vector<double> heights;
+  const auto add = [&](double z) {
+    if (z > z1 && z < z2) heights.push_back(z);
+  };
+  const double lag = tangent * (envelope.lag(z2) - envelope.lag(z1));
+  const int parts = 1 + static_cast<int>(std::abs(lag) / 1.5);
+  for (int i = 1; i < parts; ++i) {
+    add(envelope.height_at_lag(envelope.lag(z1) +
+                               (envelope.lag(z2) - envelope.lag(z1)) * i / parts));
+  }
+  if (tangent == 0.0) return heights;  // linear in z
+  const double rise = 1.0 / (tangent * envelope.lag_slope(z1));
+  const double rise_slope = (1.0 / (tangent * envelope.lag_slope(z2)) - rise) / (z2 - z1);
+  const Complex advance = feed.per_tooth * Complex(std::sin(tip_angle), -std::cos(tip_angle));
+  std::vector<std::array<Complex, 2>> lines = {{}};  // Z at z1 and its slope; of none
+  for (const ChipLaw::ReachAlong& reach : law.along(flute)) {
+    const Complex slope(reach.per_height[0], reach.per_height[1]);
+    const Complex at_tip(reach.at_tip[0], reach.at_tip[1]);
+    lines.push_back({reach.ratio * advance + at_tip + z1 * slope, slope});
+  }
+  for (std::size_t m = 0; m < lines.size(); ++m) {
+    for (std::size_t n = 0; n < m; ++n) {
+      const Complex z = lines[m][0] - lines[n][0], slope = lines[m][1] - lines[n][1];
+      const double a = std::norm(slope);
+      if (a == 0.0) continue;
+      const Complex product = std::conj(z) * slope;
+      const double b = product.real() - 0.5 * rise_slope * product.imag();
+      const double c = std::norm(z) - rise * product.imag();
+      add(z1 - product.real() / a);
+      if (b * b < a * c) continue;
+      const double root = std::sqrt(b * b - a * c);
+      add(z1 - (b + root) / a);
+      add(z1 - (b - root) / a);
+    }
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
 }  // namespace
 
 void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& feed, int flute,
                   const EdgePiece& piece, double tip_angle, double z1, double z2,
                   std::vector<Regime>& out) {
   out.clear();
-  const bool crosses_once =
-      !edges.variable_helix() && edges.cutter().runout.tilt == 0.0 && feed.slope == 0.0;
+  const bool in_phase = !edges.variable_helix() && feed.slope == 0.0;
+  const bool crosses_once = in_phase && edges.cutter().runout.tilt == 0.0;
   if (crosses_once && law.reaches() == 1) {
     out.push_back({z1, z2});
     return;
   }
   RegimeFinder finder(edges, law, feed, flute, piece, tip_angle, out);
   if (crosses_once) return finder.split(finder.at(z1), finder.at(z2));
-  constexpr int kParts = 16;
   RegimeFinder::Point low = finder.at(z1);
+  if (in_phase) {
+    for (const double z : heights_between_zeros(edges, law, feed, flute, tip_angle, z1, z2)) {
+      const RegimeFinder::Point high = finder.at(z);
+      finder.split(low, high);
+      low = high;
+    }
+    return finder.split(low, finder.at(z2));
+  }
+  constexpr int kParts = 16;
   for (int i = 1; i <= kParts; ++i) {
     const RegimeFinder::Point high = finder.at(i == kParts ? z2 : z1 + (z2 - z1) * i / kParts);
     finder.split_warily(low, high);

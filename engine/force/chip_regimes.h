@@ -17,9 +17,9 @@ struct Regime {
 /// there is no chip: within each stretch the chip thickness is smooth.
 ///
 /// Each pair of reaches crosses at most once over an engaged interval where all flutes have one
-/// helix angle and the axes are parallel: over sin(phi) all are linear in cot(phi), (F23). The
-/// lower envelope is then found exactly; in other cases for sixteen parts of the interval one by
-/// one, with a look at their middles.
+/// helix angle and the axes are parallel: over sin(phi) all are linear in cot(phi), (F23). With a
+/// tilt it does between heights that are known, (F29). The lower envelope is then found exactly; in
+/// other cases for sixteen parts of the interval one by one, with a look at their middles.
 ///
 /// @param tip_angle  immersion angle of the flute's edge at z = 0 [rad]
 /// @param out        cleared and filled, ascending
