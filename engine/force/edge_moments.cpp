@@ -191,11 +191,13 @@ void turn_to_powers(MomentSeries& series) {
 /// Moments from the lower end on, up to a point that goes up.
 class Growing {
  public:
-  Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece)
+  Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
+          std::optional<double> above)
       : edges_(edges),
         rows_(rows),
         flute_(flute),
         piece_(piece),
+        above_(above),
         tangent_(edges.flutes()[flute].helix_tangent),
         height_(piece.bottom) {}
 
@@ -203,7 +205,8 @@ class Growing {
     if (z <= height_) return moments_;
     const double lag = edges_.envelope().lag(z);
     moments_.turn(tangent_ * (lag - edges_.envelope().lag(height_)));
-    edges_.for_each_node(piece_, tangent_, height_, z, [&](const EdgeNode& node) {
+    edges_.for_each_node(piece_, tangent_, height_, z, [&](EdgeNode node) {
+      if (above_) node.width *= node.z - *above_, node.length = 0.0;
       moments_.add(edges_, rows_, flute_, node, tangent_ * (node.lag - lag));
     });
     height_ = z;
@@ -215,6 +218,7 @@ class Growing {
   Rows rows_;
   int flute_;
   const EdgePiece& piece_;
+  std::optional<double> above_;
   double tangent_;
   double height_;
   EdgeMoments moments_;
@@ -222,14 +226,14 @@ class Growing {
 
 }  // namespace
 
-MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
-                           const EdgePiece& piece) {
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
+                           std::optional<double> above) {
   const SeriesVariable variable = variable_of(piece);
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
   for (const int nodes : {24, 48, 96}) {
     MomentSeries series{variable, Terms::chebyshev, std::vector<EdgeMoments>(nodes), {}};
-    Growing edge(edges, rows, flute, piece);
+    Growing edge(edges, rows, flute, piece, above);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
       const double part = variable.part_at(std::cos(core::kPi * (i + 0.5) / nodes));
       series.terms[i] = edge.at(std::clamp(

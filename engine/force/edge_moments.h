@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "force/edge.h"
@@ -59,6 +60,9 @@ struct MomentSeries {
 
 /// (F14): terms below 3e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
 /// deg takes 96. Of a ball at 30 deg about 21 remain.
-MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
+/// @param above  a height [mm]: chip moments have what a place is above it as a factor, and the
+///               others are zero
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
+                           std::optional<double> above = std::nullopt);
 
 }  // namespace millstudy::force

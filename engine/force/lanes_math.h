@@ -51,4 +51,22 @@ struct SineAndCosine {
   return 0.5 * core::kPi - (x < 0.0 ? -arc_tangent : arc_tangent);
 }
 
+/// Of an angle within +-1.6.
+[[gnu::always_inline]] inline SineAndCosine sine_and_cosine(const Lanes& x) {
+  // Taylor's terms up to what adds nothing.
+  static constexpr auto kInverseFactorials = [] {
+    std::array<double, 24> all{1.0};
+    for (int n = 1; n < 24; ++n) all[n] = all[n - 1] / n;
+    return all;
+  }();
+  const Lanes x2 = x * x;
+  Lanes sine = Lanes{} + kInverseFactorials[23], cosine = Lanes{} + kInverseFactorials[22];
+#pragma GCC unroll 12
+  for (int n = 21; n > 0; n -= 2) {
+    sine = kInverseFactorials[n] - x2 * sine;
+    cosine = kInverseFactorials[n - 1] - x2 * cosine;
+  }
+  return {x * sine, cosine};
+}
+
 }  // namespace millstudy::force

@@ -10,6 +10,8 @@
 #include "force/edge_moments.h"
 #include "force/engagement.h"
 #include "force/harmonics.h"
+#include "force/height_series.h"
+#include "force/lagging_piece.h"
 #include "force/sampling_run.h"
 
 /// Geometry of one tooth prepared for the sampler, for each way of integrating it. All three are
@@ -115,15 +117,33 @@ class RunoutEdge {
   static constexpr int kMostFlutes = 16;
 
  private:
-  struct Limit;
   class Sweep;
   Rows rows_;
-  double hand_;
-  Angle lower_shift_;  ///< immersion angle of the tip less that of the lower end
-  Angle upper_shift_;  ///< and less that of the upper end
-  double lag_;         ///< of the upper end behind the lower [rad], > 0
-  double per_lag_;     ///< its reciprocal, finite also without helix
+  LaggingPiece piece_;
   MomentSeries series_;
+};
+
+/// Any piece of teeth whose axis is tilted against the spindle's, or offset, or both, (F28): else
+/// as RunoutEdge.
+class TiltedEdge {
+ public:
+  /// @param edges  of the cutter without its runout and pitch
+  TiltedEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece);
+
+  /// Adds flutes first .. last.
+  /// @param edges  of the cutter as it is
+  void add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,
+              const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const;
+
+ private:
+  struct Cells;
+  class Sweep;
+  Rows rows_;
+  LaggingPiece piece_;
+  double middle_;  ///< height above the tip [mm]
+  HeightSeries heights_;
+  MomentSeries series_;
+  MomentSeries by_height_;  ///< with the height above the middle as a factor of the chip
 };
 
 /// Equal-height discs (F12).

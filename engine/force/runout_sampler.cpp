@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "force/lagging_piece.h"
 #include "force/lanes_math.h"
 #include "force/line_changes.h"
 #include "force/prepared_edges.h"
 #include "force/runout_stretch.h"
 #include "force/teeth_before.h"
-#include "force/tooth_integral.h"
 
 namespace millstudy::force {
 namespace {
@@ -31,68 +31,37 @@ struct Smallest {
   return {select(is_chip, smallest.chip, ChipLanes{}), is_chip ? Lanes{} + 1.0 : Lanes{}};
 }
 
-/// Which end of the stretch in cut is not that of the piece, but where a limit of the arc is.
-enum class Cut { none, lower, upper, both };
-
 }  // namespace
 
 RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece)
-    : rows_(rows),
-      hand_(hand(edges.flutes()[0].helix_tangent)),
-      lower_shift_(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.bottom)),
-      upper_shift_(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.top)),
-      lag_(lag_over(edges.flutes()[0].helix_tangent,
-                    edges.envelope().lag(piece.top) - edges.envelope().lag(piece.bottom))),
-      per_lag_(1.0 / std::max(lag_, 1e-300)),
-      series_(moment_series(edges, rows, 0, piece)) {}
-
-/// A limit of an arc, with what the tooth's own line, which does not turn, is worth there.
-struct RunoutEdge::Limit {
-  Limit(double at, const RunoutStretch& stretch, double feed_of_turn)
-      : angle(at), own_feed(feed_of_turn), terms(stretch.steady_terms(angle, feed_of_turn)) {}
-
-  Angle angle;
-  double own_feed;  ///< [mm]
-  SteadyTerms terms;
-};
+    : rows_(rows), piece_(edges, piece), series_(moment_series(edges, rows, 0, piece)) {}
 
 /// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class RunoutEdge::Sweep {
  public:
   Sweep(const RunoutEdge& edge, const RunoutStretch& stretch, const TeethBefore& before,
-        const Limit& entry, const Limit& exit)
-      : edge_(edge),
+        const ArcLimit& entry, const ArcLimit& exit)
+      : piece_(edge.piece_),
         stretch_(stretch),
         before_(before),
         entry_(entry),
         exit_(exit),
-        closed_(edge.hand_ > 0.0 ? Closed::above : Closed::below) {
-    const double lower = edge_.lower_shift_.value, upper = lower + edge_.hand_ * edge_.lag_;
-    first_ = entry.angle.value + std::min(lower, upper);
-    entered_ = entry.angle.value + std::max(lower, upper);
-    leaving_ = exit.angle.value + std::min(lower, upper);
-    last_ = exit.angle.value + std::max(lower, upper);
-    if (entered_ < leaving_) find_spans();
+        passage_(piece_, {entry.angle().value, exit.angle().value}) {
+    if (passage_.entered < passage_.leaving) find_spans();
   }
 
   void add_to(SamplingRun& run) const {
-    run.for_each_pass(first_, last_, [&](const Pass& pass) {
-      const double full = std::min(entered_, leaving_), less = std::max(entered_, leaving_);
-      if (edge_.hand_ > 0.0) {
-        add<Cut::upper>(run, pass, first_, full);
-        add<Cut::lower>(run, pass, less, last_);
-      } else {
-        add<Cut::lower>(run, pass, first_, full);
-        add<Cut::upper>(run, pass, less, last_);
-      }
-      if (spans_.empty()) add<Cut::both>(run, pass, full, less);
-      for (const Span& span : spans_) {
-        if (span.line == kSeveral) {
-          add<Cut::none>(run, pass, span.from, span.to);
-        } else if (span.line != kNone) {
-          run.add(pass, run.between(pass, span.from, span.to, closed_), span.force);
+    run.for_each_pass(passage_.first, passage_.last, [&](const Pass& pass) {
+      passage_.for_each_cut(piece_.hand, [&]<Cut cut>(double from, double to) {
+        if (cut != Cut::none) return add<cut>(run, pass, from, to);
+        for (const Span& span : spans_) {
+          if (span.line == kSeveral) {
+            add<cut>(run, pass, span.from, span.to);
+          } else if (span.line != kNone) {
+            run.add(pass, run.between(pass, span.from, span.to, piece_.closed()), span.force);
+          }
         }
-      }
+      });
     });
   }
 
@@ -110,33 +79,33 @@ class RunoutEdge::Sweep {
   };
 
   void find_spans() {
-    const TeethBefore::AtPoint lower(before_, edge_.lower_shift_);
-    const TeethBefore::AtPoint upper(before_, edge_.upper_shift_);
-    std::vector<double> bounds = {entered_, leaving_};
+    const TeethBefore::AtPoint lower(before_, piece_.lower_shift);
+    const TeethBefore::AtPoint upper(before_, piece_.upper_shift);
+    std::vector<double> bounds = {passage_.entered, passage_.leaving};
     const auto add_bounds = [&](const TeethBefore::AtPoint& point, double shift) {
       point.for_each_change([&](double sin_phi) {
         const double phi = std::asin(sin_phi);
         for (const double tip : {phi + shift, core::kPi - phi + shift}) {
-          if (tip > entered_ && tip < leaving_) bounds.push_back(tip);
+          if (tip > passage_.entered && tip < passage_.leaving) bounds.push_back(tip);
         }
       });
     };
-    add_bounds(lower, edge_.lower_shift_.value);
-    add_bounds(upper, edge_.upper_shift_.value);
+    add_bounds(lower, piece_.lower_shift.value);
+    add_bounds(upper, piece_.upper_shift.value);
     std::sort(bounds.begin(), bounds.end());
     for (std::size_t i = 1; i < bounds.size(); ++i) {
       const Angle middle(0.5 * (bounds[i - 1] + bounds[i]));
       const auto sine_at = [&](const Angle& shift) {
         return middle.sine * shift.cosine - middle.cosine * shift.sine;
       };
-      const int line = line_at(lower.smallest_at(sine_at(edge_.lower_shift_)),
-                               upper.smallest_at(sine_at(edge_.upper_shift_)));
+      const int line = line_at(lower.smallest_at(sine_at(piece_.lower_shift)),
+                               upper.smallest_at(sine_at(piece_.upper_shift)));
       if (!spans_.empty() && spans_.back().line == line) {
         spans_.back().to = bounds[i];
       } else {
         spans_.push_back({bounds[i - 1], bounds[i], line, {}});
         if (line >= 0)
-          spans_.back().force = stretch_.whole(edge_.upper_shift_, before_.of_tip(line));
+          spans_.back().force = stretch_.whole(piece_.upper_shift, before_.of_tip(line));
       }
     }
   }
@@ -149,10 +118,10 @@ class RunoutEdge::Sweep {
 
   template <Cut cut>
   void add(SamplingRun& run, const Pass& pass, double from, double to) const {
-    const IndexRange indices = run.between(pass, from, to, closed_);
+    const IndexRange indices = run.between(pass, from, to, piece_.closed());
     if (indices.first >= indices.last) return;
     const AngleTables& tables = run.tables();
-    const double start = pass.offset - edge_.lower_shift_.value;
+    const double start = pass.offset - piece_.lower_shift.value;
     const auto lower_angle_at = [&](int n) -> Lanes {
       return start + tables.step * (static_cast<double>(n) + kLaneIndex);
     };
@@ -165,8 +134,8 @@ class RunoutEdge::Sweep {
       run.accumulate(part, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
         const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
         before_.find(c1, s1, chips.data());
-        const Place place = {n, lower_angle_at(n), at_end(pass, edge_.lower_shift_, c1, s1),
-                             at_end(pass, edge_.upper_shift_, c1, s1)};
+        const Place place = {n, lower_angle_at(n), behind(pass, piece_.lower_shift, c1, s1),
+                             behind(pass, piece_.upper_shift, c1, s1)};
         const ForceLanes force = force_at<cut>(chips.data(), place, changes);
         x = force.x, y = force.y, z = force.z, torque = force.torque;
       });
@@ -182,7 +151,8 @@ class RunoutEdge::Sweep {
                      const LowerAngle& lower_angle_at) const {
     std::array<Lanes, Crossings::kMost + 1> variables;
     for (int i = 0; i < crossings.count; ++i) {
-      const Lanes below = part_below(crossings.line(i).zero(), lower_angle_at(crossings.first[i]));
+      const Lanes below =
+          piece_.part_below(crossings.line(i).zero(), lower_angle_at(crossings.first[i]));
       variables[i] = stretch_.variable_at(below);
     }
     variables[crossings.count] = Lanes{};
@@ -207,41 +177,9 @@ class RunoutEdge::Sweep {
     SineAndCosine upper;
   };
 
-  [[gnu::always_inline]] static SineAndCosine at_end(const Pass& pass, const Angle& shift,
-                                                     const Lanes& c1, const Lanes& s1) {
-    const double c = pass.cosine * shift.cosine + pass.sine * shift.sine;
-    const double s = pass.sine * shift.cosine - pass.cosine * shift.sine;
-    return {c1 * s + s1 * c, c1 * c - s1 * s};
-  }
-
-  /// Which part of the piece, its lower end at an immersion angle, is below the point at another.
-  [[gnu::always_inline]] Lanes part_below(const Lanes& phi, const Lanes& lower_angle) const {
-    const Lanes past = edge_.hand_ * (lower_angle - phi);
-    const Lanes size = past < 0.0 ? -past : past;
-    const Lanes part = (size < kAngleSnap ? Lanes{} : past) * edge_.per_lag_;
-    return part > 0.0 ? (part < 1.0 ? part : Lanes{} + 1.0) : Lanes{};
-  }
-
-  /// Where the chip is that of the tooth itself, as at the limits of a slot, one series a row is
-  /// enough, and none where there is no chip. Each lane has its own bits, whatever its neighbours.
-  [[gnu::always_inline]] ForceLanes up_to(const Limit& limit, const Place& place,
+  [[gnu::always_inline]] ForceLanes up_to(const ArcLimit& limit, const Place& place,
                                           const Line& line) const {
-    const Lanes part = part_below(Lanes{} + limit.angle.value, place.lower_angle);
-    const auto steady = (line.edge == 0.0) | ((line.p == 0.0) & (line.q == limit.own_feed));
-    ForceLanes force;
-    if (any(line.edge * (steady ? Lanes{} + 1.0 : Lanes{}) != 0.0)) {
-      force = select(steady, stretch_.steady_up_to(part, limit.terms), force);
-      force = {force.x * line.edge, force.y * line.edge, force.z * line.edge,
-               force.torque * line.edge};
-    }
-    if (any(~steady)) {
-      force = select(steady, force, stretch_.up_to(part, lanes_of(limit.angle), line));
-    }
-    return force;
-  }
-
-  [[gnu::always_inline]] static SineAndCosine lanes_of(const Angle& angle) {
-    return {Lanes{} + angle.sine, Lanes{} + angle.cosine};
+    return limit.up_to(piece_.part_below(Lanes{} + limit.angle().value, place.lower_angle), line);
   }
 
   /// The force under whichever chip is the smallest, where it is positive. Mostly one is it all
@@ -251,11 +189,11 @@ class RunoutEdge::Sweep {
                                              Changes& changes) const {
     constexpr bool cut_below = cut == Cut::lower || cut == Cut::both;
     constexpr bool cut_above = cut == Cut::upper || cut == Cut::both;
-    const bool right = edge_.hand_ > 0.0;
-    const Limit& upper_limit = right ? entry_ : exit_;
-    const Limit& lower_limit = right ? exit_ : entry_;
-    const SineAndCosine bottom = cut_below ? lanes_of(lower_limit.angle) : place.lower;
-    const SineAndCosine top = cut_above ? lanes_of(upper_limit.angle) : place.upper;
+    const bool right = piece_.hand > 0.0;
+    const ArcLimit& upper_limit = right ? entry_ : exit_;
+    const ArcLimit& lower_limit = right ? exit_ : entry_;
+    const SineAndCosine bottom = cut_below ? lanes_of(lower_limit.angle()) : place.lower;
+    const SineAndCosine top = cut_above ? lanes_of(upper_limit.angle()) : place.upper;
     Smallest below = {chips[0], chips[0].at(bottom)}, above = {chips[0], chips[0].at(top)};
     for (int m = 1; m < before_.count(); ++m) {
       below = smaller(below, {chips[m], chips[m].at(bottom)});
@@ -269,25 +207,20 @@ class RunoutEdge::Sweep {
     const auto crosses =
         (below.chip.p != above.chip.p) | (below.chip.q != above.chip.q) | (line.edge != last.edge);
     if (any(crosses)) {
-      const EdgeInCut edge = {place.n, edge_.hand_, {chips, chips + before_.count()}, bottom, top};
+      const EdgeInCut edge = {place.n, piece_.hand, {chips, chips + before_.count()}, bottom, top};
       note_changes(edge, crosses, line, last, changes);
     }
     force += cut_above ? up_to(upper_limit, place, line) : stretch_.whole(top, line);
     return force;
   }
 
-  const RunoutEdge& edge_;
+  const LaggingPiece& piece_;
   const RunoutStretch& stretch_;
   const TeethBefore& before_;
-  const Limit& entry_;
-  const Limit& exit_;
-  Closed closed_;
-  // Angles of the tip at which the ends of the piece pass the limits.
-  double first_;
-  double entered_;
-  double leaving_;
-  double last_;
-  std::vector<Span> spans_;  ///< from entered_ to leaving_
+  const ArcLimit& entry_;
+  const ArcLimit& exit_;
+  Passage passage_;
+  std::vector<Span> spans_;  ///< from where all is in cut to where it begins to leave
 };
 
 void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, int last,
@@ -295,12 +228,8 @@ void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, 
   const Angle turn(std::remainder(feed.direction, core::kTurn) +
                    (rows_ == Rows::moments ? 0.5 * core::kPi : 0.0));
   const RunoutStretch stretch(series_, k, turn.cosine, turn.sine);
-  const double own_feed = feed.per_tooth * static_cast<double>(edges.flutes().size());
-  std::vector<Limit> limits;
-  for (const Arc& arc : arcs) {
-    limits.emplace_back(arc.entry_angle, stretch, own_feed);
-    limits.emplace_back(arc.exit_angle, stretch, own_feed);
-  }
+  const std::vector<ArcLimit> limits =
+      limits_of(arcs, stretch, feed.per_tooth * static_cast<double>(edges.flutes().size()));
   for (int flute = first; flute <= last; ++flute) {
     const TeethBefore before(edges, flute, feed);
     run.begin_tooth(Angle(edges.flutes()[flute].position));

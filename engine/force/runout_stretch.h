@@ -4,16 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <complex>
+#include <span>
 #include <vector>
 
 #include "force/coefficients.h"
 #include "force/edge_moments.h"
+#include "force/engagement.h"
 #include "force/harmonics.h"
 #include "force/lanes_math.h"
 #include "force/sampling_run.h"
 
 /// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
 namespace millstudy::force {
+
+[[gnu::always_inline]] inline SineAndCosine lanes_of(const Angle& angle) {
+  return {Lanes{} + angle.sine, Lanes{} + angle.cosine};
+}
 
 /// Over sin(kappa), the chip of one reach is p cos(phi) + q sin(phi), (F23), [mm].
 struct ChipLanes {
@@ -78,7 +84,8 @@ enum Worth {
   vs,
   tc,  ///< torque of the chip
   ts,
-  er,  ///< planar edge force
+  kChipWorths,
+  er = kChipWorths,  ///< planar edge force
   ei,
   ez,  ///< axial edge force
   et,  ///< torque of the edge
@@ -119,6 +126,18 @@ class RunoutStretch {
                  upper, line);
   }
 
+  /// The chip forces alone, of all of the piece and up to a part of it.
+  [[gnu::always_inline]] ForceLanes chip_of_whole(const SineAndCosine& upper,
+                                                  const ChipLanes& chip) const {
+    return chip_force(whole_, upper, chip);
+  }
+  [[gnu::always_inline]] ForceLanes chip_up_to(const Lanes& part, const SineAndCosine& upper,
+                                               const ChipLanes& chip) const {
+    return chip_force(sum_series<kChipWorths, kWorths>(kind_, terms_.front().data(), terms_.size(),
+                                                       variable_.at(part)),
+                      upper, chip);
+  }
+
   /// All of the piece as harmonics of the tip's angle, `shift` ahead of that of the upper end.
   Harmonics whole(const Angle& shift, const LineOfTip& line) const {
     using Complex = std::complex<double>;
@@ -142,12 +161,11 @@ class RunoutStretch {
 
   /// Terms for steady_up_to(): the upper point stays at an angle, the line is q sin(phi), q [mm].
   SteadyTerms steady_terms(const Angle& upper, double q) const {
-    const SineAndCosine at = {Lanes{} + upper.sine, Lanes{} + upper.cosine};
     const Line line = {{Lanes{}, Lanes{} + q}, Lanes{} + 1.0};
     SteadyTerms steady;
     steady.reserve(terms_.size());
     for (const Worths<double>& w : terms_) {
-      const ForceLanes f = force(w, at, line);
+      const ForceLanes f = force(w, lanes_of(upper), line);
       steady.push_back({f.x[0], f.y[0], f.z[0], f.torque[0]});
     }
     return steady;
@@ -200,21 +218,29 @@ class RunoutStretch {
   }
 
  private:
-  template <class Value>
-  [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
-                                                 const Line& line) {
+  template <class Value, std::size_t kCount>
+  [[gnu::always_inline]] static ForceLanes chip_force(const std::array<Value, kCount>& w,
+                                                      const SineAndCosine& b,
+                                                      const ChipLanes& chip) {
     const Lanes c = b.cosine, s = b.sine;
     const Lanes c2 = c * c - s * s, s2 = 2.0 * s * c;
     const Lanes hr = c2 * w[g2r] + s2 * w[g2i];
     const Lanes hi = c2 * w[g2i] - s2 * w[g2r];
     const auto along = [&](int cosine, int sine) -> Lanes {
-      return line.p * (c * w[cosine] + s * w[sine]) + line.q * (s * w[cosine] - c * w[sine]);
+      return chip.p * (c * w[cosine] + s * w[sine]) + chip.q * (s * w[cosine] - c * w[sine]);
     };
-    return {-0.5 * (line.p * (w[g0r] + hr) + line.q * (w[g0i] - hi)) -
-                line.edge * (c * w[er] + s * w[ei]),
-            -0.5 * (line.p * (w[g0i] + hi) + line.q * (hr - w[g0r])) -
-                line.edge * (c * w[ei] - s * w[er]),
-            along(vc, vs) + line.edge * w[ez], along(tc, ts) + line.edge * w[et]};
+    return {-0.5 * (chip.p * (w[g0r] + hr) + chip.q * (w[g0i] - hi)),
+            -0.5 * (chip.p * (w[g0i] + hi) + chip.q * (hr - w[g0r])), along(vc, vs), along(tc, ts)};
+  }
+
+  template <class Value>
+  [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
+                                                 const Line& line) {
+    const Lanes c = b.cosine, s = b.sine;
+    ForceLanes force = chip_force(w, b, line);
+    force -= {line.edge * (c * w[er] + s * w[ei]), line.edge * (c * w[ei] - s * w[er]),
+              -line.edge * w[ez], -line.edge * w[et]};
+    return force;
   }
 
   static Worths<double> worths(const EdgeMoments& m, const Coefficients& k, double cosine,
@@ -246,5 +272,53 @@ class RunoutStretch {
   std::vector<Worths<double>> terms_;
   std::vector<std::array<double, kZeroSums>> zero_terms_;
 };
+
+/// A limit of an arc, with what the tooth's own line, which does not turn, is worth there.
+class ArcLimit {
+ public:
+  /// @param own_feed  of a turn [mm]
+  ArcLimit(double angle, const RunoutStretch& stretch, double own_feed)
+      : stretch_(stretch),
+        angle_(angle),
+        own_feed_(own_feed),
+        terms_(stretch.steady_terms(angle_, own_feed)) {}
+
+  const Angle& angle() const { return angle_; }
+
+  /// The piece from its lower end up to a part of it that stands at the limit. Where the chip is
+  /// that of the tooth itself, as at the limits of a slot, one series a row is enough, and none
+  /// where there is no chip. Each lane has its own bits, whatever its neighbours.
+  [[gnu::always_inline]] ForceLanes up_to(const Lanes& part, const Line& line) const {
+    const auto steady = (line.edge == 0.0) | ((line.p == 0.0) & (line.q == own_feed_));
+    ForceLanes force;
+    if (any(line.edge * (steady ? Lanes{} + 1.0 : Lanes{}) != 0.0)) {
+      force = select(steady, stretch_.steady_up_to(part, terms_), force);
+      force = {force.x * line.edge, force.y * line.edge, force.z * line.edge,
+               force.torque * line.edge};
+    }
+    if (any(~steady)) {
+      force = select(steady, force, stretch_.up_to(part, lanes_of(angle_), line));
+    }
+    return force;
+  }
+
+ private:
+  const RunoutStretch& stretch_;
+  Angle angle_;
+  double own_feed_;  ///< [mm]
+  SteadyTerms terms_;
+};
+
+/// Entry and exit of each arc, one after the other.
+/// @param own_feed  of a turn [mm]
+inline std::vector<ArcLimit> limits_of(std::span<const Arc> arcs, const RunoutStretch& stretch,
+                                       double own_feed) {
+  std::vector<ArcLimit> limits;
+  for (const Arc& arc : arcs) {
+    limits.emplace_back(arc.entry_angle, stretch, own_feed);
+    limits.emplace_back(arc.exit_angle, stretch, own_feed);
+  }
+  return limits;
+}
 
 }  // namespace millstudy::force

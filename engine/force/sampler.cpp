@@ -119,9 +119,14 @@ struct ForceSampler::Geometry {
         highest_cos_kappa = std::max(highest_cos_kappa, cosine);
       }
     }
-    if (takes_runout_edges(edge_rule)) {
+    if (can_take_runout_edges(edge_rule)) {
+      const bool parallel = cutter.runout.tilt == 0.0;
       for (const EdgePiece& piece : plain_edges->pieces()) {
-        runout.emplace_back(*plain_edges, rows, piece);
+        if (parallel) {
+          runout.emplace_back(*plain_edges, rows, piece);
+        } else {
+          tilted.emplace_back(*plain_edges, rows, piece);
+        }
       }
     }
     if (!linear) return;
@@ -143,11 +148,14 @@ struct ForceSampler::Geometry {
     return !cutter::has_runout(edges->cutter()) && (power || !law.with_chip());
   }
 
-  /// Runout with all that makes its chips linear in cot(phi), (F23).
-  bool takes_runout_edges(const EdgeRule& edge_rule) const {
-    return cutter::has_runout(edges->cutter()) && edges->cutter().runout.tilt == 0.0 &&
-           !edges->variable_helix() && !edges->variation().with_chip() &&
-           edge_rule.rule == Rule::exact && edges->cutter().flutes <= RunoutEdge::kMostFlutes;
+  bool takes_runout_edges() const { return !runout.empty() || !tilted.empty(); }
+
+  /// Runout of teeth that follow each other all along the edge, under coefficients that do not
+  /// depend on the chip.
+  bool can_take_runout_edges(const EdgeRule& edge_rule) const {
+    return cutter::has_runout(edges->cutter()) && !edges->variable_helix() &&
+           !edges->variation().with_chip() && edge_rule.rule == Rule::exact &&
+           edges->cutter().flutes <= RunoutEdge::kMostFlutes;
   }
 
   int angular_steps;
@@ -163,7 +171,8 @@ struct ForceSampler::Geometry {
   double highest_cos_kappa = 0.0;
   std::vector<ToothGeometry> geometries;
   std::vector<Tooth> teeth;
-  std::vector<RunoutEdge> runout;
+  std::vector<RunoutEdge> runout;  ///< of parallel axes
+  std::vector<TiltedEdge> tilted;  ///< of others
 };
 
 /// What of the geometry depends on the arcs.
@@ -279,7 +288,7 @@ void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, st
 
 void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
-  const bool prepared = !geometry_->runout.empty() && feed.slope == 0.0;
+  const bool prepared = geometry_->takes_runout_edges() && feed.slope == 0.0;
   prepared || is_linear(feed) ? sample_prepared(flute, coefficients, feed, first, count, out)
                               : sample_nonlinear(flute, coefficients, feed, first, count, out);
 }
@@ -287,10 +296,13 @@ void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, con
 void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
                           const Feed& feed) const {
   const Geometry& g = *geometry_;
-  if (!g.runout.empty()) {
+  if (g.takes_runout_edges()) {
     const int from = flute == kAllFlutes ? 0 : flute;
     const int to = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
     for (const RunoutEdge& edge : g.runout) {
+      edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
+    }
+    for (const TiltedEdge& edge : g.tilted) {
       edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
     }
     return;

@@ -40,11 +40,14 @@ class TeethBefore {
   }
 
   /// The line of one over the angle of the tooth's tip.
-  LineOfTip of_tip(int m) const {
+  LineOfTip of_tip(int m) const { return {ahead(m, offset_, seen_), before_[m].feed}; }
+
+  /// How far the tooth stands out over one, as a complex number that turns with its tip, of axes
+  /// that are an offset apart.
+  /// @param seen  position of the tip, from where the offset points
+  std::complex<double> ahead(int m, double offset, const Angle& seen) const {
     const Before& b = before_[m];
-    return {
-        offset_ * std::complex(seen_.cosine, -seen_.sine) * std::complex(b.one_less_cosine, b.sine),
-        b.feed};
+    return offset * std::complex(seen.cosine, -seen.sine) * std::complex(b.one_less_cosine, b.sine);
   }
 
   /// Chips over sin(kappa) at one point of the edge, each linear in sin(phi): the teeth before have

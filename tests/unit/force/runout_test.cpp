@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "force/nonlinear_force.h"
@@ -19,7 +20,9 @@ using testing::distance;
 using testing::Force;
 using testing::uniform;
 
-/// A cutter whose axis is offset, and everything else that a sampler has to do with.
+enum class Axes { parallel, tilted };
+
+/// A cutter whose axis is offset or tilted, and everything else that a sampler has to do with.
 struct RunoutCase {
   cutter::Cutter cutter;
   Engagement engagement;
@@ -37,14 +40,15 @@ std::ostream& operator<<(std::ostream& out, const RunoutCase& c) {
              << " helix_deg=" << core::deg_from_rad(c.cutter.helix_angle)
              << " pitch_angles=" << c.cutter.pitch_angles.size()
              << " offset=" << c.cutter.runout.offset << " angle=" << c.cutter.runout.angle
+             << " tilt=" << c.cutter.runout.tilt << " tilt_angle=" << c.cutter.runout.tilt_angle
              << " entry=" << c.engagement.entry_angle << " exit=" << c.engagement.exit_angle
              << " arcs=" << c.arcs.size() << " depth=" << c.engagement.axial_depth
              << " feed=" << c.feed.per_tooth << " direction=" << c.feed.direction;
 }
 
 /// Offsets from a fiftieth of the feed, where every tooth cuts, to five times of it, where most
-/// miss their cut.
-RunoutCase random_runout_case(std::mt19937_64& random) {
+/// miss their cut; of tilted axes the same at the top of the cut, and some without offset.
+RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
   using cutter::Shape;
   constexpr std::array<Shape, 4> kShapes = {Shape::flat, Shape::ball, Shape::bull_nose,
                                             Shape::taper};
@@ -97,6 +101,11 @@ RunoutCase random_runout_case(std::mt19937_64& random) {
   c.feed = {uniform(random, 0.01, 0.2), uniform(random, -10.0, 10.0)};
   c.cutter.runout = {c.feed.per_tooth * std::pow(10.0, uniform(random, -1.7, 0.7)),
                      uniform(random, -4.0, 4.0)};
+  if (axes == Axes::parallel) return c;
+  const double at_top = c.feed.per_tooth * std::pow(10.0, uniform(random, -1.7, 0.7));
+  c.cutter.runout.tilt = std::min(std::atan(at_top / depth), core::rad_from_deg(9.9));
+  c.cutter.runout.tilt_angle = uniform(random, -4.0, 4.0);
+  if (random() % 4 == 0) c.cutter.runout.offset = 0.0;
   return c;
 }
 
@@ -133,6 +142,15 @@ Force sample_at(const ForceSamples& samples, std::size_t i) {
   return {samples.x[i], samples.y[i], samples.z[i], samples.torque[i]};
 }
 
+class ForceSamplerWithRunout : public ::testing::TestWithParam<Axes> {};
+
+std::string name_of(const ::testing::TestParamInfo<Axes>& axes) {
+  return axes.param == Axes::parallel ? "Parallel" : "Tilted";
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAxes, ForceSamplerWithRunout,
+                         ::testing::Values(Axes::parallel, Axes::tilted), name_of);
+
 /// Largest disagreement with the reference over the peak, where it is more than what rounding the
 /// angle by 4e-15 rad does to the reference.
 double disagreement(const RunoutCase& c, const ForceSamples& samples, Rows rows, int steps) {
@@ -156,12 +174,12 @@ double disagreement(const RunoutCase& c, const ForceSamples& samples, Rows rows,
   return peak > 0.0 ? worst / peak : worst;
 }
 
-TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesByQuadrature) {
+TEST_P(ForceSamplerWithRunout, IsTheSumOfTheFlutesByQuadrature) {
   constexpr int kCases = 3000;
   std::mt19937_64 random(20261125);
   double worst = 0.0;
   for (int round = 0; round < kCases; ++round) {
-    const RunoutCase c = random_runout_case(random);
+    const RunoutCase c = random_runout_case(random, GetParam());
     const int steps = 24 + static_cast<int>(random() % 40);
     ForceSamples samples;
     c.sampler(steps).sample(c.coefficients, c.feed, 0, steps, samples);
@@ -173,11 +191,11 @@ TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesByQuadrature) {
 }
 
 /// So many angles that within every stretch of the revolution some are far from its ends.
-TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesAtManyAngles) {
+TEST_P(ForceSamplerWithRunout, IsTheSumOfTheFlutesAtManyAngles) {
   std::mt19937_64 random(5);
   double worst = 0.0;
   for (int round = 0; round < 200; ++round) {
-    const RunoutCase c = random_runout_case(random);
+    const RunoutCase c = random_runout_case(random, GetParam());
     const int steps = 720;
     ForceSamples samples;
     c.sampler(steps).sample(c.coefficients, c.feed, 0, steps, samples);
@@ -188,11 +206,11 @@ TEST(ForceSamplerWithRunout, IsTheSumOfTheFlutesAtManyAngles) {
   std::cout << "runout against quadrature, 720 angles: " << worst << " of the peak\n";
 }
 
-TEST(ForceSamplerWithRunout, MomentsAreTheSumOfTheFlutesByQuadrature) {
+TEST_P(ForceSamplerWithRunout, MomentsAreTheSumOfTheFlutesByQuadrature) {
   std::mt19937_64 random(3);
   double worst = 0.0;
   for (int round = 0; round < 500; ++round) {
-    const RunoutCase c = random_runout_case(random);
+    const RunoutCase c = random_runout_case(random, GetParam());
     const int steps = 24 + static_cast<int>(random() % 40);
     ForceSamples samples;
     c.sampler(steps, true).sample_moments(c.coefficients, c.feed, 0, steps, samples);
@@ -203,14 +221,15 @@ TEST(ForceSamplerWithRunout, MomentsAreTheSumOfTheFlutesByQuadrature) {
   std::cout << "moments with runout against quadrature: " << worst << " of the peak\n";
 }
 
-TEST(ForceSamplerWithRunout, TendsToTheCutterWithoutIt) {
+TEST_P(ForceSamplerWithRunout, TendsToTheCutterWithoutIt) {
   std::mt19937_64 random(17);
   for (int round = 0; round < 200; ++round) {
-    RunoutCase c = random_runout_case(random);
+    RunoutCase c = random_runout_case(random, GetParam());
     ForceSamples with, without;
     c.cutter.runout.offset = 1e-14;
+    if (c.cutter.runout.tilt != 0.0) c.cutter.runout.tilt = 1e-14 / c.engagement.axial_depth;
     c.sampler(90).sample(c.coefficients, c.feed, 0, 90, with);
-    c.cutter.runout.offset = 0.0;
+    c.cutter.runout.offset = c.cutter.runout.tilt = 0.0;
     c.sampler(90).sample(c.coefficients, c.feed, 0, 90, without);
     const double radius = cutter::radius(c.cutter);
     double peak = 0.0, off = 0.0;
@@ -218,7 +237,7 @@ TEST(ForceSamplerWithRunout, TendsToTheCutterWithoutIt) {
       peak = std::max(peak, distance(sample_at(without, i), Force{}, radius));
       off = std::max(off, distance(sample_at(with, i), sample_at(without, i), radius));
     }
-    EXPECT_LE(off, 2e-11 * peak) << c;
+    EXPECT_LE(off, 4e-11 * peak) << c;
   }
 }
 
@@ -230,10 +249,10 @@ bool same_bits(const ForceSamples& a, std::size_t at_a, const ForceSamples& b, s
   return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.torque, b.torque);
 }
 
-TEST(ForceSamplerWithRunout, SamplesInPiecesAreThoseAtOnceBitForBit) {
+TEST_P(ForceSamplerWithRunout, SamplesInPiecesAreThoseAtOnceBitForBit) {
   std::mt19937_64 random(29);
   for (int round = 0; round < 300; ++round) {
-    const RunoutCase c = random_runout_case(random);
+    const RunoutCase c = random_runout_case(random, GetParam());
     const int steps = 1 + static_cast<int>(random() % 400);
     const ForceSampler sampler = c.sampler(steps);
     const std::int64_t first = static_cast<std::int64_t>(random() % 2000) - 1000;
@@ -249,10 +268,10 @@ TEST(ForceSamplerWithRunout, SamplesInPiecesAreThoseAtOnceBitForBit) {
   }
 }
 
-TEST(ForceSamplerWithRunout, IsTheSumOfItsFlutes) {
+TEST_P(ForceSamplerWithRunout, IsTheSumOfItsFlutes) {
   std::mt19937_64 random(31);
   for (int round = 0; round < 200; ++round) {
-    const RunoutCase c = random_runout_case(random);
+    const RunoutCase c = random_runout_case(random, GetParam());
     const ForceSampler sampler = c.sampler(120);
     ForceSamples all, flute;
     sampler.sample(c.coefficients, c.feed, 7, 120, all);
@@ -271,6 +290,38 @@ TEST(ForceSamplerWithRunout, IsTheSumOfItsFlutes) {
       EXPECT_LE(distance(sample_at(all, i), sum[i], cutter::radius(c.cutter)), 4e-14 * peak) << c;
     }
   }
+}
+
+/// Of a cutter whose tooth 1 takes over from tooth 2 and gives back within a sixteenth of the edge:
+/// the ends of stretches do not tell. Discs ask every tooth at each of their heights.
+TEST(TiltedAxis, AToothThatTakesOverForAShortStretchIsNotMissed) {
+  cutter::Cutter cutter{cutter::Shape::flat, 15.136921423092065, 4,
+                        core::rad_from_deg(23.08241237979032)};
+  cutter.pitch_angles = {1.7715132254734351, 1.2235617276148945, 2.2949600300581294,
+                         0.99315032403312742};
+  cutter.runout = {0.015540814879883361, 2.8247105081220516, 0.0015954260880096667,
+                   0.27033885381573164};
+  const double depth = 23.372439081950571;
+  const std::vector<Arc> arcs = {{2.0116285582847482, 2.52326772580364},
+                                 {2.903212242273141, 3.1415926535897931}};
+  const Coefficients tangential{1000.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Feed feed{0.016637744769548431, 3.5935410812799273};
+  constexpr int kSteps = 720, kStep = 44, kFlute = 3;
+
+  const auto edges = std::make_shared<const CuttingEdges>(cutter, depth, Variation{});
+  const double tip =
+      2.0 * core::kPi * kStep / kSteps + feed.direction + edges->flutes()[kFlute].position;
+  const auto torque_by = [&](const EdgeRule& rule) {
+    return NonlinearForce(edges, rule)
+        .of_flute(kFlute, tip, arcs, tangential, feed, Rows::forces)[3];
+  };
+  ForceSamples samples;
+  ForceSampler(cutter, {arcs[0].entry_angle, arcs[1].exit_angle, depth}, {}, kSteps)
+      .with_arcs(arcs)
+      .sample_flute(kFlute, tangential, feed, kStep, 1, samples);
+  const double by_discs = torque_by({Rule::discs, 1000000});
+  EXPECT_NEAR(torque_by({}), by_discs, 2e-6 * by_discs);  // 1.5e-5 if it is missed
+  EXPECT_NEAR(samples.torque[0], by_discs, 2e-6 * by_discs);
 }
 
 }  // namespace

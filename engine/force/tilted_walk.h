@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "force/height_series.h"
+#include "force/lagging_piece.h"
+#include "force/lanes_math.h"
+#include "force/tilted_chip.h"
+
+/// Where, up an edge on a tilted axis, the chip of one tooth gives way to that of another, (F28).
+namespace millstudy::force {
+
+/// A part of a piece, small enough that a chip whose phase goes one way is zero once.
+struct Cell {
+  SineAndCosine middle;  ///< of the immersion angle there
+  double part;           ///< of the piece's lag that is below the middle
+};
+
+/// The smallest chip at a point.
+struct LowestAt {
+  Point point;
+  Lowest chip;
+};
+
+template <class Mask>
+[[gnu::always_inline]] inline LowestAt select(const Mask& mask, const LowestAt& a,
+                                              const LowestAt& b) {
+  return {select(mask, a.point, b.point), select(mask, a.chip, b.chip)};
+}
+
+class TiltedWalk {
+ public:
+  /// @param chips     how many teeth before there are
+  /// @param carefully  looks also between points at which one chip is the smallest: it may not be
+  ///                   so there
+  TiltedWalk(const LaggingPiece& piece, const HeightSeries& heights, int chips, bool carefully)
+      : piece_(piece), heights_(heights), count_(chips), carefully_(carefully) {
+    const HeightSeries::Height low = heights.at(Lanes{}), high = heights.at(Lanes{} + 1.0);
+    lowest_ = low.value[0];
+    per_height_ = 1.0 / (high.value[0] - lowest_);
+    const double at_low = low.slope[0] * piece.per_lag, at_high = high.slope[0] * piece.per_lag;
+    rise_slope_ = (at_high - at_low) * per_height_;
+    rise_ = at_low - rise_slope_ * lowest_;
+  }
+
+  bool carefully() const { return carefully_; }
+
+  [[gnu::always_inline]] Lowest lowest_at(const TiltedChips& chips, const Point& point) const {
+    Lowest best = {Lanes{}, chips[0].at(point)};
+    for (int m = 1; m < count_; ++m) {
+      const Lanes value = chips[m].at(point);
+      best = select(value < best.value, Lowest{Lanes{} + static_cast<double>(m), value}, best);
+    }
+    return best;
+  }
+
+  TiltedChip chip_of(const TiltedChips& chips, const Lanes& which) const {
+    TiltedChip chip = chips[0];
+    for (int m = 1; m < count_; ++m) {
+      chip = select(which == static_cast<double>(m), chips[m], chip);
+    }
+    return chip;
+  }
+
+  /// Goes from one point of a cell up to another and calls change(point, chip, edge) for each
+  /// change: the chip below less that above, and what there is of the edge forces below less above.
+  /// @return the chip at the upper point
+  template <class Change>
+  [[gnu::noinline]] Lowest go(const Cell& cell, const TiltedChips& chips, LowestAt from,
+                              const LowestAt& last, const Change& change) const {
+    const int most = carefully_ ? 8 * count_ + 8 : count_;  // mostly no chip comes back
+    for (int step = 0; step <= most; ++step) {
+      LowestAt to = last;
+      const TiltedChip chip = chip_of(chips, from.chip.which);
+      auto stops = to.chip.which != from.chip.which;
+      find_crossing(cell, chips, chip, from, stops, to);
+      for (int look = 0; carefully_ && look < most; ++look) {
+        const auto hides = find_hidden(cell, chips, chip, from, to);
+        if (!any(hides)) break;
+        stops |= hides;
+        find_crossing(cell, chips, chip, from, hides & (to.chip.which != from.chip.which), to);
+      }
+      const auto is_chip = from.chip.value >= 0.0, stays = to.chip.value >= 0.0;
+      const auto turns = is_chip != stays;
+      if (any(turns)) {
+        const Point at = root(cell, chip, from.point, to.point, turns, kEnd);
+        const Lanes sign = turns ? (is_chip ? Lanes{} + 1.0 : Lanes{} - 1.0) : Lanes{};
+        change(at, chip * sign, sign);
+      }
+      const auto goes_on = stays & (to.chip.which != from.chip.which);
+      if (any(goes_on)) {
+        const TiltedChip less = chip - chip_of(chips, to.chip.which);
+        change(to.point, select(goes_on, less, TiltedChip{}), Lanes{});
+      }
+      from = to;
+      if (!any(stops)) break;
+    }
+    return from.chip;
+  }
+
+ private:
+  Point at(const Cell& cell, const Lanes& part) const {
+    const SineAndCosine ahead = sine_and_cosine(piece_.hand * piece_.lag * (part - cell.part));
+    return {part,
+            heights_.at(part).value,
+            {cell.middle.sine * ahead.cosine - cell.middle.cosine * ahead.sine,
+             cell.middle.cosine * ahead.cosine + cell.middle.sine * ahead.sine}};
+  }
+
+  /// Takes `to`, where another chip is smaller, down to where the first of the others crosses.
+  template <class Mask>
+  [[gnu::always_inline]] void find_crossing(const Cell& cell, const TiltedChips& chips,
+                                            const TiltedChip& chip, const LowestAt& from,
+                                            Mask counts, LowestAt& to) const {
+    for (int look = 0; look < count_ && any(counts); ++look) {
+      const TiltedChip less = chip - chip_of(chips, to.chip.which);
+      const Point at = root(cell, less, from.point, to.point, counts, kCrossing);
+      const Lowest found = lowest_at(chips, at);
+      const Lanes value = chip.at(at);
+      const auto other = counts & (found.value < value - kEqual) & (found.which != to.chip.which) &
+                         (found.which != from.chip.which);
+      to.point = select(counts, at, to.point);
+      to.chip.which = other ? found.which : to.chip.which;
+      to.chip.value = counts ? value : to.chip.value;
+      counts = other;
+    }
+  }
+
+  /// Heights at which to look for what the ends do not tell: between them, the phase of a chip goes
+  /// one way, and by less than half a turn in a cell.
+  ///
+  /// A chip is Re(conj(Z) exp(i phi)), Z = P + i Q going along a line. Its phase, phi less that of
+  /// Z, stands still where abs(Z)^2 is in proportion to the rise of the edge over the lag, which is
+  /// linear: a quadratic equation. Z turns fastest where it is next to the origin.
+  std::array<Lanes, 3> heights_to_look_at(const TiltedChip& chip) const {
+    const Lanes p = chip.middle.p, q = chip.middle.q;
+    const Lanes v = chip.per_height.p, w = chip.per_height.q;
+    const Lanes turn = piece_.hand * (p * w - q * v);
+    const Lanes a = v * v + w * w, nearest = p * v + q * w;
+    const Lanes b = nearest + 0.5 * rise_slope_ * turn, c = p * p + q * q + rise_ * turn;
+    const Lanes root = square_root(larger(b * b - a * c, Lanes{}));
+    const auto moves = a > 0.0;
+    const Lanes per_a = 1.0 / (moves ? a : Lanes{} + 1.0);
+    const Lanes none = Lanes{} + std::numeric_limits<double>::max();
+    return {moves ? -nearest * per_a : none, moves ? (-b - root) * per_a : none,
+            moves ? (root - b) * per_a : none};
+  }
+
+  Lanes part_at_height(const Lanes& height) const {
+    Lanes part = (height - lowest_) * per_height_;
+    for (int i = 0; i < 3; ++i) {  // of Newton's method
+      const HeightSeries::Height at = heights_.at(part);
+      part -= (at.value - height) / at.slope;
+    }
+    return part;
+  }
+
+  /// Takes `to` down to a place at which the chip, the smallest at both points, is not, or where
+  /// its sign differs from that of both.
+  /// @return where it did
+  [[gnu::always_inline]] auto find_hidden(const Cell& cell, const TiltedChips& chips,
+                                          const TiltedChip& chip, const LowestAt& from,
+                                          LowestAt& to) const {
+    auto hides = from.point.part > to.point.part;  // nowhere
+    for (int m = 0; m <= count_; ++m) {
+      const bool is_other = m < count_;
+      const TiltedChip more = is_other ? chips[m] - chip : chip;
+      for (const Lanes& height : heights_to_look_at(more)) {
+        auto here = (height > from.point.height) & (height < to.point.height);
+        if (!any(here)) continue;
+        const Point point = at(cell, here ? part_at_height(height) : from.point.part);
+        const Lanes value = more.at(point);
+        const auto is_chip = from.chip.value >= 0.0;
+        const auto differs =
+            is_other ? value < -kEqual
+                     : (is_chip == (to.chip.value >= 0.0)) & (is_chip != (value >= 0.0));
+        here &= differs & (point.part > from.point.part) & (point.part < to.point.part);
+        if (!any(here)) continue;
+        to = select(here, {point, lowest_at(chips, point)}, to);
+        hides |= here;
+      }
+    }
+    return hides;
+  }
+
+  /// Where a chip is zero between points at which its signs differ, in the lanes that count.
+  /// @param tolerance  of the part, for the last step of Newton's method
+  template <class Mask>
+  [[gnu::always_inline]] Point root(const Cell& cell, const TiltedChip& chip, const Point& a,
+                                    const Point& b, const Mask& counts, double tolerance) const {
+    const double turn = piece_.hand * piece_.lag;
+    const Lanes at_a = chip.at(a), at_b = chip.at(b);
+    const auto rises = at_b > at_a;
+    Lanes low = a.part, high = b.part;
+    const Lanes between = at_a / (at_a - at_b);
+    Lanes part =
+        low + ((between >= 0.0) & (between <= 1.0) ? between : Lanes{} + 0.5) * (high - low);
+    auto moves = counts;
+    for (int step = 0;; ++step) {
+      const Point point = at(cell, part);
+      if (step == kMostSteps || !any(moves)) return point;
+      const ChipLanes here = chip.at_height(point.height);
+      const Lanes value = here.at(point.phi);
+      const Lanes slope = heights_.at(part).slope * chip.per_height.at(point.phi) +
+                          turn * (here.p * point.phi.sine - here.q * point.phi.cosine);
+      const auto is_above = (value > 0.0) == rises;
+      low = is_above ? low : part;
+      high = is_above ? part : high;
+      const Lanes newton = part - value / slope;
+      const Lanes next = (newton >= low) & (newton <= high) ? newton : 0.5 * (low + high);
+      const Lanes change = next - part;
+      // Each lane stops by itself: its bits do not depend on its neighbours.
+      part = moves ? next : part;
+      moves &= (change > tolerance) | (change < -tolerance);
+    }
+  }
+
+  static constexpr double kEqual = 1e-15;  // [mm]
+  static constexpr int kMostSteps = 60;
+  // The last step of Newton's method: what it leaves is about its square. Where one tooth takes
+  // over from another, that changes the force by its square again; but edge forces end at once.
+  static constexpr double kCrossing = 1e-4;
+  static constexpr double kEnd = 1e-13;
+
+  const LaggingPiece& piece_;
+  const HeightSeries& heights_;
+  int count_;
+  bool carefully_;
+  double lowest_;      ///< height of the lower end above the middle [mm]
+  double per_height_;  ///< one over the height of the piece [1/mm]
+  double rise_;        ///< height over lag at the middle [mm/rad]
+  double rise_slope_;  ///< and how it grows with height [1/rad]
+};
+
+}  // namespace millstudy::force
