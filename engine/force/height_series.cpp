@@ -10,7 +10,7 @@ namespace millstudy::force {
 
 HeightSeries::HeightSeries(const cutter::Envelope& envelope, const EdgePiece& piece) {
   constexpr int kNodes = 24;
-  constexpr double kNegligible = 1e-17;  // of the height of the piece
+  constexpr double kNegligible = 3e-15;  // of the height: rounding leaves as much in every term
   const double lag1 = envelope.lag(piece.bottom), lag2 = envelope.lag(piece.top);
   const double middle = 0.5 * (piece.bottom + piece.top);
   terms_.resize(kNodes);
@@ -22,10 +22,7 @@ HeightSeries::HeightSeries(const cutter::Envelope& envelope, const EdgePiece& pi
       terms_[m][0] += (m == 0 ? 1.0 : 2.0) / kNodes * std::cos(m * angle) * height;
     }
   }
-  const double negligible = kNegligible * (piece.top - piece.bottom);
-  // Rounding leaves terms of every order.
-  const double rounding = 1e-16 * piece.top;
-  while (terms_.size() > 2 && std::abs(terms_.back()[0]) < std::max(negligible, rounding)) {
+  while (terms_.size() > 2 && std::abs(terms_.back()[0]) < kNegligible * piece.top) {
     terms_.pop_back();
   }
   for (std::size_t m = terms_.size() - 1; m > 0; --m) {

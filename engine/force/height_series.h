@@ -22,8 +22,12 @@ class HeightSeries {
     Lanes slope;  ///< over the part [mm]
   };
   [[gnu::always_inline]] Height at(const Lanes& part) const {
+    const Lanes t = 2.0 * part - 1.0;
+    if (terms_.size() == 2) {  // linear
+      return {terms_[0][0] + terms_[1][0] * t, Lanes{} + 2.0 * terms_[0][1]};
+    }
     const std::array<Lanes, 2> sums =
-        sum_series<2, 2>(Terms::chebyshev, terms_.front().data(), terms_.size(), 2.0 * part - 1.0);
+        sum_series<2, 2>(Terms::chebyshev, terms_.front().data(), terms_.size(), t);
     return {sums[0], 2.0 * sums[1]};
   }
 

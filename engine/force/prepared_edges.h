@@ -14,7 +14,7 @@
 #include "force/lagging_piece.h"
 #include "force/sampling_run.h"
 
-/// Geometry of one tooth prepared for the sampler, for each way of integrating it. All three are
+/// Geometry of one tooth prepared for the sampler, for each way of integrating it. All are
 /// immutable and know nothing of engagement, feed and coefficients; add_to() adds the passes of
 /// teeth to a run.
 namespace millstudy::force {

@@ -138,6 +138,41 @@ class RunoutStretch {
                       upper, chip);
   }
 
+  /// The first kSums of the series that the forces up to a point are made of, at two vectors
+  /// abreast.
+  template <int kSums>
+  [[gnu::always_inline]] std::array<std::array<Lanes, kSums>, 2> sums(
+      const std::array<Lanes, 2>& t) const {
+    return sum_series<kSums, kWorths>(kind_, terms_.front().data(), terms_.size(), t);
+  }
+
+  /// The force of the chip alone, by its sums, up to a point that stands at b.
+  template <class Value, std::size_t kCount>
+  [[gnu::always_inline]] static ForceLanes chip_force(const std::array<Value, kCount>& w,
+                                                      const SineAndCosine& b,
+                                                      const ChipLanes& chip) {
+    const Lanes c = b.cosine, s = b.sine;
+    const Lanes c2 = c * c - s * s, s2 = 2.0 * s * c;
+    const Lanes hr = c2 * w[g2r] + s2 * w[g2i];
+    const Lanes hi = c2 * w[g2i] - s2 * w[g2r];
+    const auto along = [&](int cosine, int sine) -> Lanes {
+      return chip.p * (c * w[cosine] + s * w[sine]) + chip.q * (s * w[cosine] - c * w[sine]);
+    };
+    return {-0.5 * (chip.p * (w[g0r] + hr) + chip.q * (w[g0i] - hi)),
+            -0.5 * (chip.p * (w[g0i] + hi) + chip.q * (hr - w[g0r])), along(vc, vs), along(tc, ts)};
+  }
+
+  /// And with that of the edge.
+  template <class Value>
+  [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
+                                                 const Line& line) {
+    const Lanes c = b.cosine, s = b.sine;
+    ForceLanes force = chip_force(w, b, line);
+    force -= {line.edge * (c * w[er] + s * w[ei]), line.edge * (c * w[ei] - s * w[er]),
+              -line.edge * w[ez], -line.edge * w[et]};
+    return force;
+  }
+
   /// All of the piece as harmonics of the tip's angle, `shift` ahead of that of the upper end.
   Harmonics whole(const Angle& shift, const LineOfTip& line) const {
     using Complex = std::complex<double>;
@@ -179,7 +214,7 @@ class RunoutStretch {
     return {sum[0], sum[1], sum[2], sum[3]};
   }
 
-  /// The variable of zero_sums() at which they are those of a part.
+  /// The variable of sums() and zero_sums() at which they are those of a part.
   [[gnu::always_inline]] Lanes variable_at(const Lanes& part) const { return variable_.at(part); }
 
   /// The first kSums of the series that up_to_zero() needs: four after four, at two vectors
@@ -218,31 +253,6 @@ class RunoutStretch {
   }
 
  private:
-  template <class Value, std::size_t kCount>
-  [[gnu::always_inline]] static ForceLanes chip_force(const std::array<Value, kCount>& w,
-                                                      const SineAndCosine& b,
-                                                      const ChipLanes& chip) {
-    const Lanes c = b.cosine, s = b.sine;
-    const Lanes c2 = c * c - s * s, s2 = 2.0 * s * c;
-    const Lanes hr = c2 * w[g2r] + s2 * w[g2i];
-    const Lanes hi = c2 * w[g2i] - s2 * w[g2r];
-    const auto along = [&](int cosine, int sine) -> Lanes {
-      return chip.p * (c * w[cosine] + s * w[sine]) + chip.q * (s * w[cosine] - c * w[sine]);
-    };
-    return {-0.5 * (chip.p * (w[g0r] + hr) + chip.q * (w[g0i] - hi)),
-            -0.5 * (chip.p * (w[g0i] + hi) + chip.q * (hr - w[g0r])), along(vc, vs), along(tc, ts)};
-  }
-
-  template <class Value>
-  [[gnu::always_inline]] static ForceLanes force(const Worths<Value>& w, const SineAndCosine& b,
-                                                 const Line& line) {
-    const Lanes c = b.cosine, s = b.sine;
-    ForceLanes force = chip_force(w, b, line);
-    force -= {line.edge * (c * w[er] + s * w[ei]), line.edge * (c * w[ei] - s * w[er]),
-              -line.edge * w[ez], -line.edge * w[et]};
-    return force;
-  }
-
   static Worths<double> worths(const EdgeMoments& m, const Coefficients& k, double cosine,
                                double sine) {
     Worths<double> w;

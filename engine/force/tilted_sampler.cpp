@@ -65,9 +65,23 @@ struct TiltedEdge::Cells {
 /// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class TiltedEdge::Sweep {
  public:
+  /// Where, up the edge at the angles of a vector, the chip or the edge forces change.
+  struct Change {
+    int n;  ///< the first angle of the vector
+    Point point;
+    TiltedChip chip;  ///< that below less that above
+    Lanes edge;       ///< 1 where the edge forces end there, -1 where they begin, else 0
+  };
+  /// Memory that one sweep leaves to the next.
+  struct Scratch {
+    TiltedChips chips;
+    std::vector<Change> of_teeth;  ///< from the chip of one to that of another
+    std::vector<Change> of_chip;   ///< where it begins or ends
+  };
+
   Sweep(const TiltedEdge& edge, const RunoutStretch& stretch, const RunoutStretch& by_height,
         const Cells& cells, const std::vector<TiltedLineOfTip>& lines, const ArcLimit& entry,
-        const ArcLimit& exit)
+        const ArcLimit& exit, Scratch& scratch)
       : piece_(edge.piece_),
         heights_(edge.heights_),
         stretch_(stretch),
@@ -77,20 +91,13 @@ class TiltedEdge::Sweep {
         walk_(piece_, heights_, static_cast<int>(lines.size()), cells.carefully),
         entry_(entry),
         exit_(exit),
-        passage_(piece_, {entry.angle().value, exit.angle().value}) {}
+        passage_(piece_, {entry.angle().value, exit.angle().value}),
+        scratch_(scratch) {}
 
   void add_to(SamplingRun& run) const {
     run.for_each_pass(passage_.first, passage_.last, [&](const Pass& pass) {
       passage_.for_each_cut(piece_.hand, [&]<Cut cut>(double from, double to) {
-        const AngleTables& tables = run.tables();
-        const double start = pass.offset - piece_.lower_shift.value;
-        run.accumulate(run.between(pass, from, to, piece_.closed()), [&](int n, Lanes& x, Lanes& y,
-                                                                         Lanes& z, Lanes& torque) {
-          const Spindle spindle = {pass, load(&tables.cos1[n]), load(&tables.sin1[n]),
-                                   start + tables.step * (static_cast<double>(n) + kLaneIndex)};
-          const ForceLanes force = force_at<cut>(spindle);
-          x = force.x, y = force.y, z = force.z, torque = force.torque;
-        });
+        add<cut>(run, pass, run.between(pass, from, to, piece_.closed()));
       });
     });
   }
@@ -98,6 +105,7 @@ class TiltedEdge::Sweep {
  private:
   /// A vector of spindle angles.
   struct Spindle {
+    int n;  ///< index of the first
     const Pass& pass;
     Lanes cosine;
     Lanes sine;
@@ -105,6 +113,58 @@ class TiltedEdge::Sweep {
 
     SineAndCosine at(const Angle& shift) const { return behind(pass, shift, cosine, sine); }
   };
+
+  template <Cut cut>
+  void add(SamplingRun& run, const Pass& pass, const IndexRange& indices) const {
+    constexpr int kTogether = 16 * kLanes;
+    const AngleTables& tables = run.tables();
+    const double start = pass.offset - piece_.lower_shift.value;
+    for (IndexRange part = indices; part.first < indices.last; part.first += kTogether) {
+      part.last = std::min(part.first + kTogether, indices.last);
+      scratch_.of_teeth.clear();
+      scratch_.of_chip.clear();
+      run.accumulate(part, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+        const Spindle spindle = {n, pass, load(&tables.cos1[n]), load(&tables.sin1[n]),
+                                 start + tables.step * (static_cast<double>(n) + kLaneIndex)};
+        find(spindle, scratch_.chips);
+        const ForceLanes force = force_at<cut>(spindle);
+        x = force.x, y = force.y, z = force.z, torque = force.torque;
+      });
+      add_changes<kChipWorths>(run, scratch_.of_teeth, part.last);
+      add_changes<kWorths>(run, scratch_.of_chip, part.last);
+    }
+  }
+
+  /// Adds the stretches up to the changes: long sums, of which the processor does two abreast.
+  template <int kSums>
+  void add_changes(SamplingRun& run, const std::vector<Change>& changes, int last) const {
+    for (std::size_t first = 0; first < changes.size(); first += 2) {
+      const std::size_t second = std::min(first + 1, changes.size() - 1);
+      const std::array<Lanes, 2> parts = {changes[first].point.part, changes[second].point.part};
+      const auto sums = stretch_.sums<kSums>(variables(stretch_, parts));
+      const auto by_height = by_height_.sums<kChipWorths>(variables(by_height_, parts));
+      for (std::size_t i = 0; i <= second - first; ++i) {
+        const Change& change = changes[first + i];
+        const SineAndCosine& phi = change.point.phi;
+        ForceLanes force;
+        if constexpr (kSums == kWorths) {
+          force = RunoutStretch::force(sums[i], phi, {change.chip.middle, change.edge});
+        } else {
+          force = RunoutStretch::chip_force(sums[i], phi, change.chip.middle);
+        }
+        force += RunoutStretch::chip_force(by_height[i], phi, change.chip.per_height);
+        run.accumulate({change.n, std::min(change.n + kLanes, last)},
+                       [&](int, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+                         x = force.x, y = force.y, z = force.z, torque = force.torque;
+                       });
+      }
+    }
+  }
+
+  static std::array<Lanes, 2> variables(const RunoutStretch& stretch,
+                                        const std::array<Lanes, 2>& parts) {
+    return {stretch.variable_at(parts[0]), stretch.variable_at(parts[1])};
+  }
 
   void find(const Spindle& spindle, TiltedChips& chips) const {
     const Lanes c = spindle.cosine * spindle.pass.cosine - spindle.sine * spindle.pass.sine;
@@ -127,13 +187,6 @@ class TiltedEdge::Sweep {
     return {part, heights_.at(part).value, lanes_of(limit.angle())};
   }
 
-  /// The force up to a point under a chip; both are zero in lanes that do not count.
-  [[gnu::always_inline]] ForceLanes up_to(const Point& point, const TiltedChip& chip,
-                                          const Lanes& edge) const {
-    ForceLanes force = stretch_.up_to(point.part, point.phi, {chip.middle, edge});
-    return force += by_height_.chip_up_to(point.part, point.phi, chip.per_height);
-  }
-
   [[gnu::always_inline]] ForceLanes up_to_limit(const ArcLimit& limit, const Point& point,
                                                 const TiltedChip& chip, const Lanes& edge) const {
     ForceLanes force = limit.up_to(point.part, {chip.middle, edge});
@@ -145,13 +198,12 @@ class TiltedEdge::Sweep {
 
   template <Cut cut>
   [[gnu::always_inline]] ForceLanes force_at(const Spindle& spindle) const {
+    const TiltedChips& chips = scratch_.chips;
     constexpr bool cut_below = cut == Cut::lower || cut == Cut::both;
     constexpr bool cut_above = cut == Cut::upper || cut == Cut::both;
     const bool right = piece_.hand > 0.0;
     const ArcLimit& upper_limit = right ? entry_ : exit_;
     const ArcLimit& lower_limit = right ? exit_ : entry_;
-    TiltedChips chips;
-    find(spindle, chips);
     const Point bottom =
         cut_below ? at_limit(spindle, lower_limit) : at_node(spindle, cells_.nodes.front());
     const Point top =
@@ -172,12 +224,14 @@ class TiltedEdge::Sweep {
         if (cut_above) high = select(high.part < top.part, high, top);
       }
       Lowest next = walk_.lowest_at(chips, high);
-      const auto changes = (now.which != next.which) | ((now.value >= 0.0) != (next.value >= 0.0));
-      if (walk_.carefully() || any(changes)) {
+      const auto differs = (now.which != next.which) | ((now.value >= 0.0) != (next.value >= 0.0));
+      if (walk_.carefully() || any(differs)) {
         const Cell cell = {spindle.at(cells_.middles[k].shift), cells_.middles[k].part};
         next = walk_.go(cell, chips, {low, now}, {high, next},
                         [&](const Point& at, const TiltedChip& chip, const Lanes& edge) {
-                          force += up_to(at, chip, edge);
+                          std::vector<Change>& of =
+                              any(edge != 0.0) ? scratch_.of_chip : scratch_.of_teeth;
+                          of.push_back({spindle.n, at, chip, edge});
                         });
       }
       low = high;
@@ -204,6 +258,7 @@ class TiltedEdge::Sweep {
   const ArcLimit& entry_;
   const ArcLimit& exit_;
   Passage passage_;
+  Scratch& scratch_;
 };
 
 namespace {
@@ -258,13 +313,14 @@ void TiltedEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, 
   const RunoutStretch by_height(by_height_, k, axes.cosine, axes.sine);
   const std::vector<ArcLimit> limits =
       limits_of(arcs, stretch, feed.per_tooth * static_cast<double>(edges.flutes().size()));
+  Sweep::Scratch scratch;
   for (int flute = first; flute <= last; ++flute) {
     const std::vector<TiltedLineOfTip> lines = lines_of(edges, flute, feed, middle_);
     const double turn = fastest_turn(piece_, heights_, lines);
     const Cells cells(piece_, heights_, turn);
     run.begin_tooth(Angle(edges.flutes()[flute].position));
     for (std::size_t i = 0; i < limits.size(); i += 2) {
-      Sweep(*this, stretch, by_height, cells, lines, limits[i], limits[i + 1]).add_to(run);
+      Sweep(*this, stretch, by_height, cells, lines, limits[i], limits[i + 1], scratch).add_to(run);
     }
   }
 }

@@ -85,8 +85,8 @@ class TiltedWalk {
       const auto is_chip = from.chip.value >= 0.0, stays = to.chip.value >= 0.0;
       const auto turns = is_chip != stays;
       if (any(turns)) {
-        const Point at = root(cell, chip, from.point, to.point, turns, kEnd);
         const Lanes sign = turns ? (is_chip ? Lanes{} + 1.0 : Lanes{} - 1.0) : Lanes{};
+        const Point at = root(cell, chip * -sign, from.point, to.point, turns, kEnd);
         change(at, chip * sign, sign);
       }
       const auto goes_on = stays & (to.chip.which != from.chip.which);
@@ -101,12 +101,32 @@ class TiltedWalk {
   }
 
  private:
-  Point at(const Cell& cell, const Lanes& part) const {
+  Point at(const Cell& cell, const Lanes& part, const Lanes& height) const {
     const SineAndCosine ahead = sine_and_cosine(piece_.hand * piece_.lag * (part - cell.part));
     return {part,
-            heights_.at(part).value,
+            height,
             {cell.middle.sine * ahead.cosine - cell.middle.cosine * ahead.sine,
              cell.middle.cosine * ahead.cosine + cell.middle.sine * ahead.sine}};
+  }
+
+  /// Of the chips that are smaller at the upper point, probably the first to be so: the one whose
+  /// chip would cross at the largest cot(phi) if none grew with height.
+  [[gnu::always_inline]] Lanes first_to_cross(const TiltedChips& chips, const TiltedChip& chip,
+                                              const LowestAt& from, const LowestAt& to) const {
+    const Lanes height = 0.5 * (from.point.height + to.point.height);
+    const ChipLanes line = chip.at_height(height);
+    const Lanes value = chip.at(to.point);
+    const Lanes none = Lanes{} + std::numeric_limits<double>::max();
+    Lanes over = none, under = Lanes{} + 1.0, which = to.chip.which;
+    for (int m = 0; m < count_; ++m) {
+      const ChipLanes other = chips[m].at_height(height);
+      const Lanes q = other.q - line.q, p = piece_.hand * (line.p - other.p);
+      const auto sooner = (chips[m].at(to.point) < value) & (p > 0.0) & (q * under < over * p);
+      over = sooner ? q : over;
+      under = sooner ? p : under;
+      which = sooner ? Lanes{} + static_cast<double>(m) : which;
+    }
+    return which;
   }
 
   /// Takes `to`, where another chip is smaller, down to where the first of the others crosses.
@@ -114,6 +134,8 @@ class TiltedWalk {
   [[gnu::always_inline]] void find_crossing(const Cell& cell, const TiltedChips& chips,
                                             const TiltedChip& chip, const LowestAt& from,
                                             Mask counts, LowestAt& to) const {
+    if (!any(counts)) return;
+    to.chip.which = counts ? first_to_cross(chips, chip, from, to) : to.chip.which;
     for (int look = 0; look < count_ && any(counts); ++look) {
       const TiltedChip less = chip - chip_of(chips, to.chip.which);
       const Point at = root(cell, less, from.point, to.point, counts, kCrossing);
@@ -158,7 +180,7 @@ class TiltedWalk {
   }
 
   /// Takes `to` down to a place at which the chip, the smallest at both points, is not, or where
-  /// its sign differs from that of both.
+  /// its sign is not that at the lower point. Where no such is left, it is zero once at most.
   /// @return where it did
   [[gnu::always_inline]] auto find_hidden(const Cell& cell, const TiltedChips& chips,
                                           const TiltedChip& chip, const LowestAt& from,
@@ -170,12 +192,11 @@ class TiltedWalk {
       for (const Lanes& height : heights_to_look_at(more)) {
         auto here = (height > from.point.height) & (height < to.point.height);
         if (!any(here)) continue;
-        const Point point = at(cell, here ? part_at_height(height) : from.point.part);
+        const Lanes part = here ? part_at_height(height) : from.point.part;
+        const Point point = at(cell, part, heights_.at(part).value);
         const Lanes value = more.at(point);
-        const auto is_chip = from.chip.value >= 0.0;
         const auto differs =
-            is_other ? value < -kEqual
-                     : (is_chip == (to.chip.value >= 0.0)) & (is_chip != (value >= 0.0));
+            is_other ? value < -kEqual : (value >= 0.0) != (from.chip.value >= 0.0);
         here &= differs & (point.part > from.point.part) & (point.part < to.point.part);
         if (!any(here)) continue;
         to = select(here, {point, lowest_at(chips, point)}, to);
@@ -185,43 +206,50 @@ class TiltedWalk {
     return hides;
   }
 
-  /// Where a chip is zero between points at which its signs differ, in the lanes that count.
+  /// Where a chip is zero between points at the upper one of which it is positive, at the lower one
+  /// not, in the lanes that count. Rounding may have it otherwise: then it is at that end.
   /// @param tolerance  of the part, for the last step of Newton's method
   template <class Mask>
   [[gnu::always_inline]] Point root(const Cell& cell, const TiltedChip& chip, const Point& a,
                                     const Point& b, const Mask& counts, double tolerance) const {
     const double turn = piece_.hand * piece_.lag;
     const Lanes at_a = chip.at(a), at_b = chip.at(b);
-    const auto rises = at_b > at_a;
     Lanes low = a.part, high = b.part;
-    const Lanes between = at_a / (at_a - at_b);
-    Lanes part =
-        low + ((between >= 0.0) & (between <= 1.0) ? between : Lanes{} + 0.5) * (high - low);
+    // Never next to the ends: one may be a zero of its own, from which the chip has just fallen.
+    const Lanes secant = at_a / (at_a - at_b);
+    const Lanes start = secant < kFromEnds
+                            ? Lanes{} + kFromEnds
+                            : (secant < 1.0 - kFromEnds ? secant : Lanes{} + (1.0 - kFromEnds));
+    Lanes part = low + start * (high - low);
     auto moves = counts;
     for (int step = 0;; ++step) {
-      const Point point = at(cell, part);
+      const HeightSeries::Height height = heights_.at(part);
+      const Point point = at(cell, part, height.value);
       if (step == kMostSteps || !any(moves)) return point;
       const ChipLanes here = chip.at_height(point.height);
       const Lanes value = here.at(point.phi);
-      const Lanes slope = heights_.at(part).slope * chip.per_height.at(point.phi) +
+      const Lanes slope = height.slope * chip.per_height.at(point.phi) +
                           turn * (here.p * point.phi.sine - here.q * point.phi.cosine);
-      const auto is_above = (value > 0.0) == rises;
-      low = is_above ? low : part;
-      high = is_above ? part : high;
+      low = value > 0.0 ? low : part;
+      high = value > 0.0 ? part : high;
       const Lanes newton = part - value / slope;
-      const Lanes next = (newton >= low) & (newton <= high) ? newton : 0.5 * (low + high);
-      const Lanes change = next - part;
+      // Where it falls is next to another zero.
+      const auto is_newton = (slope > 0.0) & (newton >= low) & (newton <= high);
+      const Lanes change = (is_newton ? newton : 0.5 * (low + high)) - part;
+      const Lanes small = is_newton ? Lanes{} + tolerance : Lanes{} + kRounding;
       // Each lane stops by itself: its bits do not depend on its neighbours.
-      part = moves ? next : part;
-      moves &= (change > tolerance) | (change < -tolerance);
+      part = moves ? part + change : part;
+      moves &= (change > small) | (change < -small);
     }
   }
 
   static constexpr double kEqual = 1e-15;  // [mm]
   static constexpr int kMostSteps = 60;
+  static constexpr double kRounding = 1e-16;  // of the part
+  static constexpr double kFromEnds = 0.02;   // of a bracket
   // The last step of Newton's method: what it leaves is about its square. Where one tooth takes
   // over from another, that changes the force by its square again; but edge forces end at once.
-  static constexpr double kCrossing = 1e-4;
+  static constexpr double kCrossing = 1e-6;
   static constexpr double kEnd = 1e-13;
 
   const LaggingPiece& piece_;

@@ -5,8 +5,8 @@
 //
 // First the sampler against as many discs a tooth as they need for an error of 1e-4 of the peak, or
 // what is asked for; the number is searched for and printed. Then unequal flutes, runout (also with
-// a tilted axis, which is integrated angle by angle) and the size effect against equal flutes,
-// whose prepared series are the fast path. Ratios are of medians. Run it on an idle machine.
+// a tilted axis) and the size effect against equal flutes, whose prepared series are the fast path.
+// Ratios are of medians. Run it on an idle machine.
 
 #include <algorithm>
 #include <benchmark/benchmark.h>

@@ -55,6 +55,22 @@ TEST(LanesMath, AngleOfNoVectorIsFinite) {
   for (int lane = 0; lane < kLanes; ++lane) EXPECT_TRUE(std::isfinite(found[lane]));
 }
 
+TEST(LanesMath, SineAndCosineAreRightToRounding) {
+  constexpr double kMost = 1.6;
+  long double worst = 0.0L;
+  for (double from = -kMost; from <= kMost; from += 1e-5) {
+    const Lanes x = from + 1e-6 * kLaneIndex;
+    const SineAndCosine found = sine_and_cosine(x);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const long double exact = x[lane];
+      worst = std::max(worst, std::abs(found.sine[lane] - sinl(exact)));
+      worst = std::max(worst, std::abs(found.cosine[lane] - cosl(exact)));
+    }
+  }
+  std::cout << "sine_and_cosine: " << worst << " absolute\n";
+  EXPECT_LT(worst, 4e-16L);
+}
+
 TEST(LanesMath, ComparesLaneByLane) {
   const Lanes a = 1.0 + kLaneIndex;
   const Lanes b = (kLanes + 1.0) - a;
