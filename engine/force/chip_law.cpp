@@ -28,16 +28,19 @@ void ChipLaw::find(int flute, const EdgePoint& point, std::span<Reach> out) cons
   const std::vector<cutter::Flute>& flutes = edges_.flutes();
   const auto count = static_cast<int>(flutes.size());
   const double radius = runout_[flute].at(point.z, point.direction);
-  double tangent = flutes[flute].helix_tangent;
+  const double own = flutes[flute].helix_tangent;
+  // Mostly there are two helix angles, by turns.
+  double tangent = own;
   std::array<double, 2> lag = point.direction;
   for (int m = 1; m < count; ++m) {
     const int other = flute + m < count ? flute + m : flute + m - count;
-    if (flutes[other].helix_tangent != tangent) {
-      tangent = flutes[other].helix_tangent;
+    const double its = flutes[other].helix_tangent;
+    if (its != own && its != tangent) {
+      tangent = its;
       lag = {std::cos(tangent * point.lag), std::sin(tangent * point.lag)};
     }
     out[m - 1] = {edges_.pitch_ratio(flute, point.lag, m),
-                  radius - runout_[other].at(point.z, lag)};
+                  radius - runout_[other].at(point.z, its == own ? point.direction : lag)};
   }
   out[count - 1] = {static_cast<double>(count), 0.0};
 }

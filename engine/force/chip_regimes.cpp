@@ -24,7 +24,10 @@ class RegimeFinder {
         cos_tip_(std::cos(tip_angle)),
         tangent_(edges.flutes()[flute].helix_tangent),
         out_(out),
-        at_point_(law.reaches()) {}
+        at_point_(law.reaches()),
+        low_(law.reaches()),
+        middle_(law.reaches()),
+        high_(law.reaches()) {}
 
   /// A point of the edge with the smallest of the reaches there.
   struct Point {
@@ -65,22 +68,87 @@ class RegimeFinder {
     }
   }
 
-  /// Of reaches that may cross more than once: looks between the ends before it takes their word.
-  void split_warily(const Point& low, const Point& high, int depth = 0) {
-    constexpr int kDeepest = 3;
-    const Point middle = at(0.5 * (low.z + high.z));
-    const bool above = middle.value > 0.0, above_low = low.value > 0.0;
-    const bool hidden = (low.smallest == high.smallest && middle.smallest != low.smallest) ||
-                        (above_low == (high.value > 0.0) && above_low != above);
-    if (hidden && depth < kDeepest) {
-      split_warily(low, middle, depth + 1);
-      split_warily(middle, high, depth + 1);
-    } else {
-      split(low, high);
+  /// Of reaches that may cross more than once: in parts, and looks between the ends of each before
+  /// it takes their word.
+  void split_in_parts(double z1, double z2) {
+    constexpr int kParts = 16;
+    Point low = at(z1, low_);
+    for (int i = 1; i <= kParts; ++i) {
+      const Point high = at(between(z1, z2, static_cast<double>(i) / kParts), high_);
+      split_warily(low, high, 0);
+      low = high;
+      std::swap(low_, high_);
     }
   }
 
  private:
+  /// With the values of all reaches.
+  Point at(double z, std::vector<double>& values) {
+    const Point point = at(z);
+    for (int m = 0; m < law_.reaches(); ++m) values[m] = value(m);
+    return point;
+  }
+
+  /// Looks at the middle, and then where parabolas through the three points have their minima. The
+  /// values of both ends are in low_ and high_, and when it returns those of the upper one still.
+  void split_warily(const Point& low, const Point& high, int depth) {
+    constexpr int kDeepest = 3;
+    if (depth == kDeepest) return split(low, high);
+    const auto hides = [&](const Point& point) {
+      return (point.smallest != low.smallest && point.smallest != high.smallest) ||
+             ((low.value > 0.0) == (high.value > 0.0) && (low.value > 0.0) != (point.value > 0.0));
+    };
+    const auto split_at = [&](const Point& point) {
+      at(low.z, low_);
+      at(point.z, high_);
+      split_warily(low, point, depth + 1);
+      at(point.z, low_);
+      at(high.z, high_);
+      split_warily(point, high, depth + 1);
+      at(high.z, high_);
+    };
+    const Point middle = at(between(low.z, high.z, 0.5), middle_);
+    if (hides(middle)) return split_at(middle);
+    for (int m = -1; m < law_.reaches(); ++m) {
+      for (const int smallest : {low.smallest, high.smallest}) {
+        if (m == smallest) continue;
+        const double part = place_of_dip(m, smallest);
+        if (part == 0.0) continue;
+        const Point extreme = at(between(low.z, high.z, 0.5 + 0.5 * part));
+        if (hides(extreme)) return split_at(extreme);
+      }
+    }
+    split(low, high);
+  }
+
+  /// The height at a part of the way, 0 .. 1: of a climbing feed in the variable of (C11), for
+  /// kappa has a root at the tip of an arc; else reaches are smooth in the lag, and so in height.
+  double between(double z1, double z2, double part) const {
+    if (part == 1.0) return z2;
+    if (feed_.slope == 0.0) return z1 + (z2 - z1) * part;
+    const double p1 = CuttingEdges::variable(piece_, z1), p2 = CuttingEdges::variable(piece_, z2);
+    return std::clamp(edges_.node(piece_, 0.0, p1 + (p2 - p1) * part, 1.0).z, z1, z2);
+  }
+
+  /// Where between the points, from -1 to 1, a reach may be less than the smallest, or that may be
+  /// zero if m is -1: at the minimum of a parabola, unless that is clearly more. 0 if nowhere.
+  double place_of_dip(int m, int smallest) const {
+    constexpr double kClearly = 1e-3;  // of the largest: more than what a parabola misses
+    const double l = m < 0 ? low_[smallest] : low_[m] - low_[smallest];
+    const double c = m < 0 ? middle_[smallest] : middle_[m] - middle_[smallest];
+    const double h = m < 0 ? high_[smallest] : high_[m] - high_[smallest];
+    const double slope = 0.5 * (h - l), bend = 0.5 * (h + l) - c;
+    // Only of zero it may be the maximum.
+    if (bend == 0.0 || (m >= 0 && bend < 0.0) || std::abs(slope) >= 2.0 * std::abs(bend))
+      return 0.0;
+    const double extreme = c - 0.25 * slope * slope / bend;
+    const double largest = std::max(
+        {std::abs(low_[smallest]), std::abs(high_[smallest]), feed_.per_tooth * law_.reaches()});
+    return std::abs(extreme) < kClearly * largest || (extreme < 0.0) != (c < 0.0)
+               ? -0.5 * slope / bend
+               : 0.0;
+  }
+
   /// Makes value() that of a height.
   void look_at(double z) {
     const EdgePoint point = edge_point(edges_.envelope(), tangent_, z);
@@ -159,6 +227,9 @@ class RegimeFinder {
   std::vector<Regime>& out_;
   int reach_ = 0;  ///< of the last stretch
   std::vector<Reach> at_point_;
+  std::vector<double> low_;  ///< values of all reaches
+  std::vector<double> middle_;
+  std::vector<double> high_;
   double sin_phi_ = 0.0;
   double sin_kappa_ = 1.0;
   double cos_kappa_ = 0.0;
@@ -231,21 +302,14 @@ void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& fee
   }
   RegimeFinder finder(edges, law, feed, flute, piece, tip_angle, out);
   if (crosses_once) return finder.split(finder.at(z1), finder.at(z2));
+  if (!in_phase) return finder.split_in_parts(z1, z2);
   RegimeFinder::Point low = finder.at(z1);
-  if (in_phase) {
-    for (const double z : heights_between_zeros(edges, law, feed, flute, tip_angle, z1, z2)) {
-      const RegimeFinder::Point high = finder.at(z);
-      finder.split(low, high);
-      low = high;
-    }
-    return finder.split(low, finder.at(z2));
-  }
-  constexpr int kParts = 16;
-  for (int i = 1; i <= kParts; ++i) {
-    const RegimeFinder::Point high = finder.at(i == kParts ? z2 : z1 + (z2 - z1) * i / kParts);
-    finder.split_warily(low, high);
+  for (const double z : heights_between_zeros(edges, law, feed, flute, tip_angle, z1, z2)) {
+    const RegimeFinder::Point high = finder.at(z);
+    finder.split(low, high);
     low = high;
   }
+  finder.split(low, finder.at(z2));
 }
 
 }  // namespace millstudy::force

@@ -324,5 +324,34 @@ TEST(TiltedAxis, AToothThatTakesOverForAShortStretchIsNotMissed) {
   EXPECT_NEAR(samples.torque[0], by_discs, 2e-6 * by_discs);
 }
 
+/// Of a tooth that misses its cut along a hundredth of its edge.
+void expect_discs_agree(const cutter::Cutter& cutter, double depth, const Feed& feed, int flute,
+                        double tip_angle) {
+  const auto edges = std::make_shared<const CuttingEdges>(cutter, depth, Variation{});
+  const std::vector<Arc> slot_arc = {{0.0, core::kPi}};
+  const Coefficients edge_alone{0.0, 0.0, 0.0, 10.0, 0.0, 0.0};
+  const auto torque_by = [&](const EdgeRule& rule) {
+    return NonlinearForce(edges, rule)
+        .of_flute(flute, tip_angle, slot_arc, edge_alone, feed, Rows::forces)[3];
+  };
+  const double by_discs = torque_by({Rule::discs, 1000000});
+  EXPECT_NEAR(torque_by({}), by_discs, 1e-5 * by_discs);
+}
+
+TEST(ShortStretch, WithoutChipIsFoundWhereHelixAnglesDiffer) {
+  cutter::Cutter cutter{cutter::Shape::flat, 12.0, 5};
+  cutter.helix_angles = {0.94062152688782175, 0.80641112527413417, 0.95183665477285595,
+                         0.86937988490255436, 0.79356652895868207};
+  cutter.runout = {0.11417513258204781, 1.749667241838236};
+  expect_discs_agree(cutter, 21.693492728641559, {0.05}, 4, 5.2836278784231583);
+}
+
+TEST(ShortStretch, WithoutChipIsFoundWhereTheFeedFalls) {
+  cutter::Cutter cutter{cutter::Shape::ball, 12.0, 5, 0.84491558495209385};
+  cutter.runout = {0.10128853595906753, 4.3233477356028418};
+  expect_discs_agree(cutter, 4.5788620419951762, {0.05, 0.0, -0.073327028905646838}, 0,
+                     2.6132741228718346);
+}
+
 }  // namespace
 }  // namespace millstudy::force
