@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <vector>
 
 #include "force/lanes_math.h"
@@ -214,8 +213,9 @@ class TiltedEdge::Sweep {
     const auto chip_now = [&] {
       return select(now.value >= 0.0, walk_.chip_of(chips, now.which), TiltedChip{});
     };
-    if (cut_below)
+    if (cut_below) {
       force -= up_to_limit(lower_limit, bottom, chip_now(), one_where(now.value >= 0.0));
+    }
     for (int k = 0; k < cells_.count(); ++k) {
       Point high = top;
       if (k + 1 < cells_.count()) {

@@ -30,6 +30,8 @@ template <class Mask>
   return {select(mask, a.point, b.point), select(mask, a.chip, b.chip)};
 }
 
+/// Finds the changes between two points of a cell, within 1e-12 of the piece where one tooth takes
+/// over from another, and to rounding where the chip begins or ends.
 class TiltedWalk {
  public:
   /// @param chips     how many teeth before there are
@@ -243,7 +245,7 @@ class TiltedWalk {
     }
   }
 
-  static constexpr double kEqual = 1e-15;  // [mm]
+  static constexpr double kEqual = 1e-15;  // [mm]: of chips so close either serves
   static constexpr int kMostSteps = 60;
   static constexpr double kRounding = 1e-16;  // of the part
   static constexpr double kFromEnds = 0.02;   // of a bracket
