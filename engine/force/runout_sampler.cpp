@@ -39,14 +39,18 @@ RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& pi
 /// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class RunoutEdge::Sweep {
  public:
+  using Chips = std::array<ChipLanes, kMostFlutes>;
+
+  /// @param chips  memory that one sweep leaves to the next
   Sweep(const RunoutEdge& edge, const RunoutStretch& stretch, const TeethBefore& before,
-        const ArcLimit& entry, const ArcLimit& exit)
+        const ArcLimit& entry, const ArcLimit& exit, Chips& chips)
       : piece_(edge.piece_),
         stretch_(stretch),
         before_(before),
         entry_(entry),
         exit_(exit),
-        passage_(piece_, {entry.angle().value, exit.angle().value}) {
+        passage_(piece_, {entry.angle().value, exit.angle().value}),
+        chips_(chips) {
     if (passage_.entered < passage_.leaving) find_spans();
   }
 
@@ -125,7 +129,6 @@ class RunoutEdge::Sweep {
     const auto lower_angle_at = [&](int n) -> Lanes {
       return start + tables.step * (static_cast<double>(n) + kLaneIndex);
     };
-    std::array<ChipLanes, kMostFlutes> chips;
     Changes changes;
     const int together = kLanes * Crossings::vectors(before_.count());
     for (IndexRange part = indices; part.first < indices.last; part.first += together) {
@@ -133,10 +136,10 @@ class RunoutEdge::Sweep {
       changes.of_teeth.count = changes.of_chip.count = 0;
       run.accumulate(part, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
         const Lanes c1 = load(&tables.cos1[n]), s1 = load(&tables.sin1[n]);
-        before_.find(c1, s1, chips.data());
+        before_.find(c1, s1, chips_.data());
         const Place place = {n, lower_angle_at(n), behind(pass, piece_.lower_shift, c1, s1),
                              behind(pass, piece_.upper_shift, c1, s1)};
-        const ForceLanes force = force_at<cut>(chips.data(), place, changes);
+        const ForceLanes force = force_at<cut>(chips_.data(), place, changes);
         x = force.x, y = force.y, z = force.z, torque = force.torque;
       });
       add_crossings<RunoutStretch::kChipSums>(run, changes.of_teeth, part.last, lower_angle_at);
@@ -220,6 +223,7 @@ class RunoutEdge::Sweep {
   const ArcLimit& entry_;
   const ArcLimit& exit_;
   Passage passage_;
+  Chips& chips_;
   std::vector<Span> spans_;  ///< from where all is in cut to where it begins to leave
 };
 
@@ -230,11 +234,12 @@ void RunoutEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, 
   const RunoutStretch stretch(series_, k, turn.cosine, turn.sine);
   const std::vector<ArcLimit> limits =
       limits_of(arcs, stretch, feed.per_tooth * static_cast<double>(edges.flutes().size()));
+  Sweep::Chips chips;
   for (int flute = first; flute <= last; ++flute) {
     const TeethBefore before(edges, flute, feed);
     run.begin_tooth(Angle(edges.flutes()[flute].position));
     for (std::size_t i = 0; i < limits.size(); i += 2) {
-      Sweep(*this, stretch, before, limits[i], limits[i + 1]).add_to(run);
+      Sweep(*this, stretch, before, limits[i], limits[i + 1], chips).add_to(run);
     }
   }
 }
