@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "core/watch.h"
 #include "force/lanes_math.h"
 #include "force/prepared_edges.h"
 #include "force/runout_stretch.h"
@@ -120,6 +121,7 @@ class TiltedEdge::Sweep {
     const double start = pass.offset - piece_.lower_shift.value;
     for (IndexRange part = indices; part.first < indices.last; part.first += kTogether) {
       part.last = std::min(part.first + kTogether, indices.last);
+      core::keep_watch();
       scratch_.of_teeth.clear();
       scratch_.of_chip.clear();
       run.accumulate(part, [&](int n, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
