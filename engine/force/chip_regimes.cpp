@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <vector>
+
+#include "force/chip_phase.h"
 
 namespace millstudy::force {
 namespace {
@@ -235,53 +236,47 @@ class RegimeFinder {
   double cos_kappa_ = 0.0;
 };
 
-/// Heights between which the difference of any two reaches, or of one and none, is zero once, where
-/// all flutes have one helix angle and are fed in the plane: such a one is Re(conj(Z) exp(i psi)),
-/// Z going along a line with height.
-///
-/// Its phase, the lag psi less that of Z, stands still where abs(Z)^2 is in proportion to dz/dpsi,
-/// which is linear in z: a quadratic equation. Between, it goes one way, and by less than half a
-/// turn if the lag does by less than a quarter, and Z, which turns by no more than half of one, is
-/// cut where it is next to the origin.
+/// Heights between which the difference of any two reaches, or of one and none, is zero once,
+/// (F29), where all flutes have one helix angle and are fed in the plane.
 std::vector<double> heights_between_zeros(const CuttingEdges& edges, const ChipLaw& law,
                                           const Feed& feed, int flute, double tip_angle, double z1,
                                           double z2) {
-  using Complex = std::complex<double>;
+  constexpr double kQuarter = 1.5;  // of a turn, or less [rad]
   const cutter::Envelope& envelope = edges.envelope();
   const double tangent = edges.flutes()[flute].helix_tangent;
   std::vector<double> heights;
   const auto add = [&](double z) {
     if (z > z1 && z < z2) heights.push_back(z);
   };
-  const double lag = tangent * (envelope.lag(z2) - envelope.lag(z1));
-  const int parts = 1 + static_cast<int>(std::abs(lag) / 1.5);
-  for (int i = 1; i < parts; ++i) {
-    add(envelope.height_at_lag(envelope.lag(z1) +
-                               (envelope.lag(z2) - envelope.lag(z1)) * i / parts));
-  }
+  const double lag = envelope.lag(z1), range = envelope.lag(z2) - lag;
+  const int parts = 1 + static_cast<int>(std::abs(tangent) * range / kQuarter);
+  for (int i = 1; i < parts; ++i) add(envelope.height_at_lag(lag + range * i / parts));
   if (tangent == 0.0) return heights;  // linear in z
+  // Not at z2, where another segment may begin.
+  const double middle = 0.5 * (z1 + z2);
   const double rise = 1.0 / (tangent * envelope.lag_slope(z1));
-  const double rise_slope = (1.0 / (tangent * envelope.lag_slope(z2)) - rise) / (z2 - z1);
-  const Complex advance = feed.per_tooth * Complex(std::sin(tip_angle), -std::cos(tip_angle));
-  std::vector<std::array<Complex, 2>> lines = {{}};  // Z at z1 and its slope; of none
+  const double rise_slope = (1.0 / (tangent * envelope.lag_slope(middle)) - rise) / (middle - z1);
+  using Pair = std::array<double, 2>;  // of cos(psi) and sin(psi)
+  const Pair advance = {feed.per_tooth * std::sin(tip_angle),
+                        -feed.per_tooth * std::cos(tip_angle)};
+  std::vector<std::array<Pair, 2>> lines = {{}};  // at z1, and over height; of none
   for (const ChipLaw::ReachAlong& reach : law.along(flute)) {
-    const Complex slope(reach.per_height[0], reach.per_height[1]);
-    const Complex at_tip(reach.at_tip[0], reach.at_tip[1]);
-    lines.push_back({reach.ratio * advance + at_tip + z1 * slope, slope});
+    Pair at_z1;
+    for (int i = 0; i < 2; ++i) {
+      at_z1[i] = reach.ratio * advance[i] + reach.at_tip[i] + z1 * reach.per_height[i];
+    }
+    lines.push_back({at_z1, reach.per_height});
   }
+  const auto difference = [](const Pair& a, const Pair& b) -> Pair {
+    return {a[0] - b[0], a[1] - b[1]};
+  };
   for (std::size_t m = 0; m < lines.size(); ++m) {
     for (std::size_t n = 0; n < m; ++n) {
-      const Complex z = lines[m][0] - lines[n][0], slope = lines[m][1] - lines[n][1];
-      const double a = std::norm(slope);
-      if (a == 0.0) continue;
-      const Complex product = std::conj(z) * slope;
-      const double b = product.real() - 0.5 * rise_slope * product.imag();
-      const double c = std::norm(z) - rise * product.imag();
-      add(z1 - product.real() / a);
-      if (b * b < a * c) continue;
-      const double root = std::sqrt(b * b - a * c);
-      add(z1 - (b + root) / a);
-      add(z1 - (b - root) / a);
+      for (const double u :
+           heights_of_turning(difference(lines[m][0], lines[n][0]),
+                              difference(lines[m][1], lines[n][1]), rise, rise_slope)) {
+        add(z1 + u);
+      }
     }
   }
   std::sort(heights.begin(), heights.end());
@@ -294,6 +289,7 @@ void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& fee
                   const EdgePiece& piece, double tip_angle, double z1, double z2,
                   std::vector<Regime>& out) {
   out.clear();
+  constexpr int kMostPaired = 8;  // of more teeth, to look for all pairs takes longer than in parts
   const bool in_phase = !edges.variable_helix() && feed.slope == 0.0;
   const bool crosses_once = in_phase && edges.cutter().runout.tilt == 0.0;
   if (crosses_once && law.reaches() == 1) {
@@ -302,7 +298,7 @@ void find_regimes(const CuttingEdges& edges, const ChipLaw& law, const Feed& fee
   }
   RegimeFinder finder(edges, law, feed, flute, piece, tip_angle, out);
   if (crosses_once) return finder.split(finder.at(z1), finder.at(z2));
-  if (!in_phase) return finder.split_in_parts(z1, z2);
+  if (!in_phase || law.reaches() > kMostPaired) return finder.split_in_parts(z1, z2);
   RegimeFinder::Point low = finder.at(z1);
   for (const double z : heights_between_zeros(edges, law, feed, flute, tip_angle, z1, z2)) {
     const RegimeFinder::Point high = finder.at(z);

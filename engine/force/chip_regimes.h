@@ -18,9 +18,10 @@ struct Regime {
 ///
 /// Each pair of reaches crosses at most once over an engaged interval where all flutes have one
 /// helix angle and the axes are parallel: over sin(phi) all are linear in cot(phi), (F23). With a
-/// tilt it does between heights that are known, (F29). The lower envelope is then found exactly; in
-/// other cases for sixteen parts of the interval one by one, with a look at their middles and where
-/// parabolas come next to zero: of 1.7 million random teeth it was that of 512 parts.
+/// tilt, and up to eight teeth, it does between heights that are known, (F29). The lower envelope
+/// is then found exactly; in other cases for sixteen parts of the interval one by one, with a look
+/// at their middles and where parabolas come next to zero: of 1.7 million random teeth it was that
+/// of 512 parts.
 ///
 /// @param tip_angle  immersion angle of the flute's edge at z = 0 [rad]
 /// @param out        cleared and filled, ascending

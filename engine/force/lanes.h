@@ -64,6 +64,11 @@ inline constexpr int kLanes = sizeof(Lanes) / sizeof(double);
 #endif
 }
 
+/// Of code for one value as for lanes.
+inline double square_root(double value) {
+  return std::sqrt(value);
+}
+
 /// True if a comparison holds in any lane.
 template <class Mask>
 [[gnu::always_inline]] inline bool any(const Mask& mask) {

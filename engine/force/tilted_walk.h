@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "force/chip_phase.h"
 #include "force/height_series.h"
 #include "force/lagging_piece.h"
 #include "force/lanes_math.h"
@@ -42,7 +43,9 @@ class TiltedWalk {
     const HeightSeries::Height low = heights.at(Lanes{}), high = heights.at(Lanes{} + 1.0);
     lowest_ = low.value[0];
     per_height_ = 1.0 / (high.value[0] - lowest_);
-    const double at_low = low.slope[0] * piece.per_lag, at_high = high.slope[0] * piece.per_lag;
+    // The immersion angle falls with the height of a right-hand edge.
+    const double per_angle = -piece.hand * piece.per_lag;
+    const double at_low = low.slope[0] * per_angle, at_high = high.slope[0] * per_angle;
     rise_slope_ = (at_high - at_low) * per_height_;
     rise_ = at_low - rise_slope_ * lowest_;
   }
@@ -152,26 +155,6 @@ class TiltedWalk {
     }
   }
 
-  /// Heights at which to look for what the ends do not tell: between them, the phase of a chip goes
-  /// one way, and by less than half a turn in a cell.
-  ///
-  /// A chip is Re(conj(Z) exp(i phi)), Z = P + i Q going along a line. Its phase, phi less that of
-  /// Z, stands still where abs(Z)^2 is in proportion to the rise of the edge over the lag, which is
-  /// linear: a quadratic equation. Z turns fastest where it is next to the origin.
-  std::array<Lanes, 3> heights_to_look_at(const TiltedChip& chip) const {
-    const Lanes p = chip.middle.p, q = chip.middle.q;
-    const Lanes v = chip.per_height.p, w = chip.per_height.q;
-    const Lanes turn = piece_.hand * (p * w - q * v);
-    const Lanes a = v * v + w * w, nearest = p * v + q * w;
-    const Lanes b = nearest + 0.5 * rise_slope_ * turn, c = p * p + q * q + rise_ * turn;
-    const Lanes root = square_root(larger(b * b - a * c, Lanes{}));
-    const auto moves = a > 0.0;
-    const Lanes per_a = 1.0 / (moves ? a : Lanes{} + 1.0);
-    const Lanes none = Lanes{} + std::numeric_limits<double>::max();
-    return {moves ? -nearest * per_a : none, moves ? (-b - root) * per_a : none,
-            moves ? (root - b) * per_a : none};
-  }
-
   Lanes part_at_height(const Lanes& height) const {
     Lanes part = (height - lowest_) * per_height_;
     for (int i = 0; i < 3; ++i) {  // of Newton's method
@@ -191,7 +174,10 @@ class TiltedWalk {
     for (int m = 0; m <= count_; ++m) {
       const bool is_other = m < count_;
       const TiltedChip more = is_other ? chips[m] - chip : chip;
-      for (const Lanes& height : heights_to_look_at(more)) {
+      const std::array<Lanes, 3> heights =
+          heights_of_turning<Lanes>({more.middle.p, more.middle.q},
+                                    {more.per_height.p, more.per_height.q}, rise_, rise_slope_);
+      for (const Lanes& height : heights) {
         auto here = (height > from.point.height) & (height < to.point.height);
         if (!any(here)) continue;
         const Lanes part = here ? part_at_height(height) : from.point.part;
@@ -260,7 +246,7 @@ class TiltedWalk {
   bool carefully_;
   double lowest_;      ///< height of the lower end above the middle [mm]
   double per_height_;  ///< one over the height of the piece [1/mm]
-  double rise_;        ///< height over lag at the middle [mm/rad]
+  double rise_;        ///< height over immersion angle at the middle [mm/rad]
   double rise_slope_;  ///< and how it grows with height [1/rad]
 };
 

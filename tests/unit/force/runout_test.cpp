@@ -106,6 +106,7 @@ RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
   c.cutter.runout.tilt = std::min(std::atan(at_top / depth), core::rad_from_deg(9.9));
   c.cutter.runout.tilt_angle = uniform(random, -4.0, 4.0);
   if (random() % 4 == 0) c.cutter.runout.offset = 0.0;
+  if (random() % 2) c.cutter.lead = cutter::Lead::constant_helix;
   return c;
 }
 
