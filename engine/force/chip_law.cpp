@@ -7,16 +7,20 @@
 
 namespace millstudy::force {
 
-ChipLaw::ChipLaw(const CuttingEdges& edges) : edges_(edges) {
-  if (!cutter::has_runout(edges.cutter())) return;
-  const cutter::Runout& runout = edges.cutter().runout;
+RadialRunout::RadialRunout(const cutter::Runout& runout, double position) {
   cutter::Runout tilt = runout;
   tilt.offset = 0.0;
+  const double quarter_behind = position - 0.25 * core::kTurn;
+  at_tip = {cutter::runout_at(runout, position, 0.0),
+            cutter::runout_at(runout, quarter_behind, 0.0)};
+  per_height = {cutter::runout_at(tilt, position, 1.0),
+                cutter::runout_at(tilt, quarter_behind, 1.0)};
+}
+
+ChipLaw::ChipLaw(const CuttingEdges& edges) : edges_(edges) {
+  if (!cutter::has_runout(edges.cutter())) return;
   for (const cutter::Flute& flute : edges.flutes()) {
-    const double here = flute.position, quarter_behind = here - 0.25 * core::kTurn;
-    runout_.push_back(
-        {{cutter::runout_at(runout, here, 0.0), cutter::runout_at(runout, quarter_behind, 0.0)},
-         {cutter::runout_at(tilt, here, 1.0), cutter::runout_at(tilt, quarter_behind, 1.0)}});
+    runout_.emplace_back(edges.cutter().runout, flute.position);
   }
 }
 

@@ -18,6 +18,20 @@ struct Reach {
   double ahead;  ///< radius of this flute less radius of that one [mm]
 };
 
+/// (C14) of one flute, at the tip and for every mm above it: at no lag and at a quarter turn.
+struct RadialRunout {
+  /// @param position  of the flute [rad]
+  RadialRunout(const cutter::Runout& runout, double position);
+
+  /// @param lag  cosine and sine of the lag angle
+  double at(double z, const std::array<double, 2>& lag) const {
+    return lag[0] * (at_tip[0] + z * per_height[0]) + lag[1] * (at_tip[1] + z * per_height[1]);
+  }
+
+  std::array<double, 2> at_tip;      ///< [mm]
+  std::array<double, 2> per_height;  ///< [mm/mm]
+};
+
 /// (F22): the chip that a tooth finds, whatever the teeth before it left.
 class ChipLaw {
  public:
@@ -62,16 +76,6 @@ class ChipLaw {
   }
 
  private:
-  /// (C14) of one flute, at the tip and for every mm above it: at no lag and at a quarter turn.
-  struct RadialRunout {
-    std::array<double, 2> at_tip;
-    std::array<double, 2> per_height;
-
-    double at(double z, const std::array<double, 2>& lag) const {
-      return lag[0] * (at_tip[0] + z * per_height[0]) + lag[1] * (at_tip[1] + z * per_height[1]);
-    }
-  };
-
   const CuttingEdges& edges_;
   std::vector<RadialRunout> runout_;  ///< by flute; empty without
 };

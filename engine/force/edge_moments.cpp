@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "core/units.h"
-
 namespace millstudy::force {
 namespace {
 
@@ -39,20 +37,22 @@ void rotate(double& c, double& s, double cosine, double sine) {
 
 }  // namespace
 
+NodeLoads loads_of_feeds(const CuttingEdges& edges, int flute, const EdgeNode& node) {
+  const double ratio = edges.pitch_ratio(flute, node.lag);
+  return {ratio * node.sin_kappa * node.width, -ratio * node.cos_kappa * node.width, node.length};
+}
+
 void EdgeMoments::add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
-                      double delta) {
+                      const NodeLoads& loads, double delta) {
   const Weights weights = weights_of(rows, node);
   const std::array<double, 6> factors = edges.factors(flute, node);
-  const double ratio = edges.pitch_ratio(flute, node.lag);
-  const double area = ratio * node.sin_kappa * node.width;
-  const double plunge_area = -ratio * node.cos_kappa * node.width;
   const double c1 = std::cos(delta), s1 = std::sin(delta);
   const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
   for (int q = 0; q < kColumns; ++q) {
     const double planar = weights.planar[q], axial = weights.axial[q];
-    const double chip_load = area * factors[q];
-    const double edge_load = node.length * factors[kColumns + q];
-    const double plunge_load = plunge_area * factors[q];
+    const double chip_load = loads.chip * factors[q];
+    const double edge_load = loads.edge * factors[kColumns + q];
+    const double still_load = loads.still * factors[q];
     double* chip = &values_[kChip * q];
     chip[0] += chip_load * planar;
     chip[1] += chip_load * planar * c2;
@@ -64,9 +64,9 @@ void EdgeMoments::add(const CuttingEdges& edges, Rows rows, int flute, const Edg
     edge[1] += edge_load * planar * s1;
     edge[2] += edge_load * axial;
     double* plunge = &values_[kPlunge + kStill * q];
-    plunge[0] += plunge_load * planar * c1;
-    plunge[1] += plunge_load * planar * s1;
-    plunge[2] += plunge_load * axial;
+    plunge[0] += still_load * planar * c1;
+    plunge[1] += still_load * planar * s1;
+    plunge[2] += still_load * axial;
   }
 }
 
@@ -130,16 +130,15 @@ SeriesVariable variable_of(const EdgePiece& piece) {
   return SeriesVariable::of_root(misses ? 0.0 : std::max(0.0, base));
 }
 
-/// Chebyshev coefficients of values at the nodes cos(pi (i + 1/2) / n).
-std::vector<EdgeMoments> chebyshev(const std::vector<EdgeMoments>& values) {
+/// Chebyshev coefficients of values at the nodes.
+std::vector<EdgeMoments> chebyshev(const ChebyshevNodes& all,
+                                   const std::vector<EdgeMoments>& values) {
   const int nodes = static_cast<int>(values.size());
-  std::vector<double> cosines;  // of pi i / (2 nodes), a whole turn
-  for (int i = 0; i < 4 * nodes; ++i) cosines.push_back(std::cos(0.5 * core::kPi * i / nodes));
   std::vector<EdgeMoments> terms(nodes);
   for (int m = 0; m < nodes; ++m) {
     auto& sum = terms[m].values();
     for (int i = 0; i < nodes; ++i) {
-      const double factor = (m == 0 ? 1.0 : 2.0) / nodes * cosines[m * (2 * i + 1) % (4 * nodes)];
+      const double factor = all.weight(m, i);
       const auto& value = values[i].values();
       for (int k = 0; k < EdgeMoments::kCount; ++k) sum[k] += factor * value[k];
     }
@@ -192,12 +191,12 @@ void turn_to_powers(MomentSeries& series) {
 class Growing {
  public:
   Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-          std::optional<double> above)
+          const std::function<NodeLoads(const EdgeNode&)>& loads)
       : edges_(edges),
         rows_(rows),
         flute_(flute),
         piece_(piece),
-        above_(above),
+        loads_(loads),
         tangent_(edges.flutes()[flute].helix_tangent),
         height_(piece.bottom) {}
 
@@ -205,9 +204,8 @@ class Growing {
     if (z <= height_) return moments_;
     const double lag = edges_.envelope().lag(z);
     moments_.turn(tangent_ * (lag - edges_.envelope().lag(height_)));
-    edges_.for_each_node(piece_, tangent_, height_, z, [&](EdgeNode node) {
-      if (above_) node.width *= node.z - *above_, node.length = 0.0;
-      moments_.add(edges_, rows_, flute_, node, tangent_ * (node.lag - lag));
+    edges_.for_each_node(piece_, tangent_, height_, z, [&](const EdgeNode& node) {
+      moments_.add(edges_, rows_, flute_, node, loads_(node), tangent_ * (node.lag - lag));
     });
     height_ = z;
     return moments_;
@@ -218,7 +216,7 @@ class Growing {
   Rows rows_;
   int flute_;
   const EdgePiece& piece_;
-  std::optional<double> above_;
+  const std::function<NodeLoads(const EdgeNode&)>& loads_;
   double tangent_;
   double height_;
   EdgeMoments moments_;
@@ -226,21 +224,28 @@ class Growing {
 
 }  // namespace
 
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
+                           const EdgePiece& piece) {
+  return moment_series(edges, rows, flute, piece,
+                       [&](const EdgeNode& node) { return loads_of_feeds(edges, flute, node); });
+}
+
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-                           std::optional<double> above) {
+                           const std::function<NodeLoads(const EdgeNode&)>& loads) {
   const SeriesVariable variable = variable_of(piece);
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
   for (const int nodes : {24, 48, 96}) {
     MomentSeries series{variable, Terms::chebyshev, std::vector<EdgeMoments>(nodes), {}};
-    Growing edge(edges, rows, flute, piece, above);
+    const ChebyshevNodes all(nodes);
+    Growing edge(edges, rows, flute, piece, loads);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
-      const double part = variable.part_at(std::cos(core::kPi * (i + 0.5) / nodes));
+      const double part = variable.part_at(all.node(i));
       series.terms[i] = edge.at(std::clamp(
           edges.envelope().height_at_lag(lag1 + part * (lag2 - lag1)), piece.bottom, piece.top));
     }
     series.whole = edge.at(piece.top);
-    series.terms = chebyshev(series.terms);
+    series.terms = chebyshev(all, series.terms);
     double most = 0.0;
     for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
     const double tail =

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "force/edge.h"
@@ -12,6 +12,16 @@
 #include "force/slice.h"
 
 namespace millstudy::force {
+
+/// What a node of an edge has of each kind of load.
+struct NodeLoads {
+  double chip;   ///< chip area over sin(phi) [mm^2]
+  double still;  ///< chip area whatever phi [mm^2], of the kind of a plunge
+  double edge;   ///< edge length [mm]
+};
+
+/// Those of unit feeds in the plane and upward, (F1), (F21).
+NodeLoads loads_of_feeds(const CuttingEdges& edges, int flute, const EdgeNode& node);
 
 /// Integrals along an edge from the lower end of a piece up to a point, (F14): all that the force
 /// of that stretch needs, whatever the angle at which the point stands.
@@ -34,7 +44,8 @@ class EdgeMoments {
   std::array<double, kCount>& values() { return values_; }
 
   /// Adds a node that is delta behind the point.
-  void add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node, double delta);
+  void add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
+           const NodeLoads& loads, double delta);
 
   /// Goes on to a point that is further up by a lag: what is there falls behind by it.
   void turn(double lag);
@@ -60,9 +71,9 @@ struct MomentSeries {
 
 /// (F14): terms below 3e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
 /// deg takes 96. Of a ball at 30 deg about 21 remain.
-/// @param above  a height [mm]: chip moments have what a place is above it as a factor, and the
-///               others are zero
+MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
+/// @param loads  of every node
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-                           std::optional<double> above = std::nullopt);
+                           const std::function<NodeLoads(const EdgeNode&)>& loads);
 
 }  // namespace millstudy::force

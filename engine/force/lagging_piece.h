@@ -18,13 +18,12 @@ enum class Cut { none, lower, upper, both };
 
 /// A piece as seen from the tip of its flute.
 struct LaggingPiece {
-  /// @param edges  of which all flutes have one helix angle
-  LaggingPiece(const CuttingEdges& edges, const EdgePiece& piece)
-      : hand(force::hand(edges.flutes()[0].helix_tangent)),
-        lower_shift(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.bottom)),
-        upper_shift(edges.flutes()[0].helix_tangent * edges.envelope().lag(piece.top)),
-        lag(lag_over(edges.flutes()[0].helix_tangent,
-                     edges.envelope().lag(piece.top) - edges.envelope().lag(piece.bottom))),
+  /// @param helix_tangent  of its flute
+  LaggingPiece(const cutter::Envelope& envelope, double helix_tangent, const EdgePiece& piece)
+      : hand(force::hand(helix_tangent)),
+        lower_shift(helix_tangent * envelope.lag(piece.bottom)),
+        upper_shift(helix_tangent * envelope.lag(piece.top)),
+        lag(lag_over(helix_tangent, envelope.lag(piece.top) - envelope.lag(piece.bottom))),
         per_lag(1.0 / std::max(lag, 1e-300)) {}
 
   double hand;        ///< 1 of a right-hand cutter, else -1

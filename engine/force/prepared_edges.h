@@ -10,8 +10,8 @@
 #include "force/edge_moments.h"
 #include "force/engagement.h"
 #include "force/harmonics.h"
-#include "force/height_series.h"
 #include "force/lagging_piece.h"
+#include "force/part_series.h"
 #include "force/sampling_run.h"
 
 /// Geometry of one tooth prepared for the sampler, for each way of integrating it. All are
@@ -136,12 +136,12 @@ class TiltedEdge {
               const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const;
 
  private:
-  struct Cells;
+  struct Node;
   class Sweep;
   Rows rows_;
   LaggingPiece piece_;
   double middle_;  ///< height above the tip [mm]
-  HeightSeries heights_;
+  PartSeries heights_;
   MomentSeries series_;
   MomentSeries by_height_;  ///< with the height above the middle as a factor of the chip
 };

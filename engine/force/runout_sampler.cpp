@@ -34,7 +34,9 @@ struct Smallest {
 }  // namespace
 
 RunoutEdge::RunoutEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& piece)
-    : rows_(rows), piece_(edges, piece), series_(moment_series(edges, rows, 0, piece)) {}
+    : rows_(rows),
+      piece_(edges.envelope(), edges.flutes()[0].helix_tangent, piece),
+      series_(moment_series(edges, rows, 0, piece)) {}
 
 /// One tooth over one piece within one arc: a vector of spindle angles at a time.
 class RunoutEdge::Sweep {
@@ -163,11 +165,7 @@ class RunoutEdge::Sweep {
       const auto sums = stretch_.zero_sums<kSums>({variables[first], variables[first + 1]});
       for (int i = first; i < std::min(first + 2, crossings.count); ++i) {
         const ForceLanes force = stretch_.up_to_zero(crossings.line(i), sums[i - first]);
-        const int n = crossings.first[i];
-        run.accumulate({n, std::min(n + kLanes, last)},
-                       [&](int, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
-                         x = force.x, y = force.y, z = force.z, torque = force.torque;
-                       });
+        add_vector(run, crossings.first[i], last, force);
       }
     }
   }

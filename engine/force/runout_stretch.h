@@ -13,6 +13,7 @@
 #include "force/harmonics.h"
 #include "force/lanes_math.h"
 #include "force/sampling_run.h"
+#include "force/slice.h"
 
 /// (F25): the force of a stretch of edge whose chip is linear in cos(phi) and sin(phi).
 namespace millstudy::force {
@@ -68,6 +69,14 @@ struct ForceLanes {
   }
 };
 
+/// Adds forces at a vector of angles of which the run goes on to the last.
+inline void add_vector(SamplingRun& run, int n, int last, const ForceLanes& force) {
+  run.accumulate({n, std::min(n + kLanes, last)},
+                 [&](int, Lanes& x, Lanes& y, Lanes& z, Lanes& torque) {
+                   x = force.x, y = force.y, z = force.z, torque = force.torque;
+                 });
+}
+
 template <class Mask>
 [[gnu::always_inline]] inline ForceLanes select(const Mask& mask, const ForceLanes& a,
                                                 const ForceLanes& b) {
@@ -91,6 +100,41 @@ enum Worth {
   et,  ///< torque of the edge
   kWorths
 };
+
+/// Those of what does not depend on the immersion angle where it acts, in the order of the edge's.
+/// @param moment  (column, i), as EdgeMoments::edge()
+template <class Moment>
+std::array<double, kWorths - kChipWorths> still_worths(const std::array<double, kColumns>& k,
+                                                       const Moment& moment, double cosine,
+                                                       double sine) {
+  const double x = k[0] * moment(0, 0) - (k[1] * moment(1, 1) + k[2] * moment(2, 1));
+  const double y = k[0] * moment(0, 1) + (k[1] * moment(1, 0) + k[2] * moment(2, 0));
+  return {x * cosine - y * sine, x * sine + y * cosine, k[1] * moment(1, 2) + k[2] * moment(2, 2),
+          k[0] * moment(0, 2)};
+}
+
+/// @param cosine, sine  of the angle from feed axes to those of the rows
+inline std::array<double, kWorths> worths(const EdgeMoments& m, const Coefficients& k,
+                                          double cosine, double sine) {
+  std::array<double, kWorths> w;
+  w[g0r] = k.Ktc * m.chip(0, 0);
+  w[g0i] = k.Krc * m.chip(1, 0) + k.Kac * m.chip(2, 0);
+  w[g2r] = k.Ktc * m.chip(0, 1) - (k.Krc * m.chip(1, 2) + k.Kac * m.chip(2, 2));
+  w[g2i] = k.Ktc * m.chip(0, 2) + (k.Krc * m.chip(1, 1) + k.Kac * m.chip(2, 1));
+  w[vc] = k.Krc * m.chip(1, 3) + k.Kac * m.chip(2, 3);
+  w[vs] = k.Krc * m.chip(1, 4) + k.Kac * m.chip(2, 4);
+  w[tc] = k.Ktc * m.chip(0, 3);
+  w[ts] = k.Ktc * m.chip(0, 4);
+  for (const int real : {g0r, g2r}) {
+    const double turned = w[real] * cosine - w[real + 1] * sine;
+    w[real + 1] = w[real] * sine + w[real + 1] * cosine;
+    w[real] = turned;
+  }
+  const auto edge = still_worths(
+      {k.Kte, k.Kre, k.Kae}, [&](int column, int i) { return m.edge(column, i); }, cosine, sine);
+  std::copy(edge.begin(), edge.end(), w.begin() + er);
+  return w;
+}
 
 /// (F25) of one coefficient set along one piece, in axes turned by an angle.
 class RunoutStretch {
@@ -253,29 +297,6 @@ class RunoutStretch {
   }
 
  private:
-  static Worths<double> worths(const EdgeMoments& m, const Coefficients& k, double cosine,
-                               double sine) {
-    Worths<double> w;
-    w[g0r] = k.Ktc * m.chip(0, 0);
-    w[g0i] = k.Krc * m.chip(1, 0) + k.Kac * m.chip(2, 0);
-    w[g2r] = k.Ktc * m.chip(0, 1) - (k.Krc * m.chip(1, 2) + k.Kac * m.chip(2, 2));
-    w[g2i] = k.Ktc * m.chip(0, 2) + (k.Krc * m.chip(1, 1) + k.Kac * m.chip(2, 1));
-    w[vc] = k.Krc * m.chip(1, 3) + k.Kac * m.chip(2, 3);
-    w[vs] = k.Krc * m.chip(1, 4) + k.Kac * m.chip(2, 4);
-    w[tc] = k.Ktc * m.chip(0, 3);
-    w[ts] = k.Ktc * m.chip(0, 4);
-    w[er] = k.Kte * m.edge(0, 0) - (k.Kre * m.edge(1, 1) + k.Kae * m.edge(2, 1));
-    w[ei] = k.Kte * m.edge(0, 1) + (k.Kre * m.edge(1, 0) + k.Kae * m.edge(2, 0));
-    w[ez] = k.Kre * m.edge(1, 2) + k.Kae * m.edge(2, 2);
-    w[et] = k.Kte * m.edge(0, 2);
-    for (const int real : {g0r, g2r, er}) {
-      const double turned = w[real] * cosine - w[real + 1] * sine;
-      w[real + 1] = w[real] * sine + w[real + 1] * cosine;
-      w[real] = turned;
-    }
-    return w;
-  }
-
   SeriesVariable variable_;
   Terms kind_;
   Worths<double> whole_;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "core/units.h"
 #include "force/lanes.h"
 
 /// Series of functions of a part, 0 .. 1, of something.
@@ -41,6 +43,27 @@ class SeriesVariable {
   double low_;    // of the root, at part 0
   double high_;   // at part 1
   double scale_;  // of t over the root
+};
+
+/// Nodes cos(pi (i + 1/2) / count), and what the values there weigh in the terms of a Chebyshev
+/// series.
+class ChebyshevNodes {
+ public:
+  explicit ChebyshevNodes(int count) : count_(count) {
+    cosines_.reserve(4 * count);
+    for (int i = 0; i < 4 * count; ++i) {
+      cosines_.push_back(std::cos(0.5 * core::kPi * i / count));
+    }
+  }
+
+  double node(int i) const { return cosines_[2 * i + 1]; }
+  double weight(int term, int i) const {
+    return (term == 0 ? 1.0 : 2.0) / count_ * cosines_[term * (2 * i + 1) % (4 * count_)];
+  }
+
+ private:
+  int count_;
+  std::vector<double> cosines_;  ///< of pi i / (2 count), a whole turn
 };
 
 /// What the terms of a series are factors of. Powers take half the time, and lose digits where a

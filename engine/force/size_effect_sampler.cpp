@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/units.h"
 #include "force/gathered_nodes.h"
 #include "force/prepared_edges.h"
 #include "force/tooth_integral.h"
@@ -61,17 +60,15 @@ Basis<double> at_angle(const CuttingEdges& edges, Rows rows, int flute, const Ed
 template <class Function>
 PreparedRows series_of(double length, const Function& f) {
   for (const int nodes : {24, 48, 96}) {
+    const ChebyshevNodes all(nodes);
     std::vector<Basis<double>> values(nodes);
     for (int i = 0; i < nodes; ++i) {
-      const double u = 0.5 + 0.5 * std::cos(core::kPi * (i + 0.5) / nodes);
+      const double u = 0.5 + 0.5 * all.node(i);
       values[i] = f(length * u * u * u * u);
     }
     PreparedRows series(nodes);
     for (int m = 0; m < nodes; ++m) {
-      for (int i = 0; i < nodes; ++i) {
-        const double factor = (m == 0 ? 1.0 : 2.0) / nodes;
-        series.add(m, values[i], factor * std::cos(core::kPi * m * (i + 0.5) / nodes));
-      }
+      for (int i = 0; i < nodes; ++i) series.add(m, values[i], all.weight(m, i));
     }
     double largest = 0.0;
     for (int m = 0; m < nodes; ++m) largest = std::max(largest, series.largest(m));

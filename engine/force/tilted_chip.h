@@ -56,17 +56,6 @@ template <class Mask>
 /// Of the teeth before.
 using TiltedChips = std::array<TiltedChip, RunoutEdge::kMostFlutes>;
 
-/// The smallest of the chips at a point of the edge.
-struct Lowest {
-  Lanes which;
-  Lanes value;  ///< over sin(kappa) [mm]
-};
-
-template <class Mask>
-[[gnu::always_inline]] inline Lowest select(const Mask& mask, const Lowest& a, const Lowest& b) {
-  return {mask ? a.which : b.which, mask ? a.value : b.value};
-}
-
 /// One reach over the tip angle tau of a tooth: P + i Q = turning exp(i tau) + i feed at the middle
 /// of a piece.
 struct TiltedLineOfTip : LineOfTip {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "force/height_series.h"
+#include "force/part_series.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ Errors errors_of(const cutter::Cutter& cutter, double depth) {
   const cutter::Envelope& envelope = edges.envelope();
   Errors worst;
   for (const EdgePiece& piece : edges.pieces()) {
-    const HeightSeries series(envelope, piece);
+    const PartSeries series = height_series(envelope, piece);
     const double lag = envelope.lag(piece.bottom), range = envelope.lag(piece.top) - lag;
     for (int i = 0; i <= 1000; ++i) {
       const double part = 1e-3 * i;
-      const HeightSeries::Height found = series.at(Lanes{} + part);
+      const PartSeries::At found = series.at(Lanes{} + part);
       const double z = envelope.height_at_lag(lag + part * range);
       const double from_middle = z - 0.5 * (piece.bottom + piece.top);
       worst.height = std::max(worst.height, std::abs(found.value[0] - from_middle) / piece.top);
