@@ -146,6 +146,47 @@ class TiltedEdge {
   MomentSeries by_height_;  ///< with the height above the middle as a factor of the chip
 };
 
+/// Any piece of one tooth of a cutter with runout whose helix angles differ, (F33): its axis offset
+/// or tilted or both, fed in the plane.
+class ReachEdge {
+ public:
+  /// @param edges  of the cutter as it is
+  ReachEdge(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
+
+  int flute() const { return flute_; }
+
+  void add_to(SamplingRun& run, const Coefficients& k, const Feed& feed,
+              std::span<const Arc> arcs) const;
+
+ private:
+  /// One of the teeth before, (F22).
+  struct Reach {
+    double ratio;        ///< at the lower end
+    double ratio_slope;  ///< over the part
+    PartSeries ahead;    ///< [mm]
+    double size;         ///< that it is within [mm]
+    MomentSeries moments;
+  };
+  /// What bounds how fast the phase of a chip, or of the difference of two, turns.
+  struct Apart {
+    std::array<double, 2> ratio;   ///< least and largest of the feed since that one passed
+    double ratio_speed;            ///< at most, over the lag [1/rad]
+    std::array<double, 2> radius;  ///< least and largest of the vector by which it stands out [mm]
+    double radius_speed;           ///< [mm/rad]
+  };
+  double fastest_turn(double feed) const;
+  struct Node;
+  class Sweep;
+
+  Rows rows_;
+  int flute_;
+  Angle position_;
+  LaggingPiece piece_;
+  double longest_lag_;  ///< of the piece, of the steepest flute [rad]
+  std::vector<Reach> reaches_;
+  std::vector<Apart> apart_;
+};
+
 /// Equal-height discs (F12).
 class DiscEdge {
  public:

@@ -122,7 +122,11 @@ struct ForceSampler::Geometry {
     if (can_take_runout_edges(edge_rule)) {
       const bool parallel = cutter.runout.tilt == 0.0;
       for (const EdgePiece& piece : plain_edges->pieces()) {
-        if (parallel) {
+        if (edges->variable_helix()) {
+          for (int flute = 0; flute < cutter.flutes; ++flute) {
+            reaches.emplace_back(*edges, rows, flute, piece);
+          }
+        } else if (parallel) {
           runout.emplace_back(*plain_edges, rows, piece);
         } else {
           tilted.emplace_back(*plain_edges, rows, piece);
@@ -148,14 +152,14 @@ struct ForceSampler::Geometry {
     return !cutter::has_runout(edges->cutter()) && (power || !law.with_chip());
   }
 
-  bool takes_runout_edges() const { return !runout.empty() || !tilted.empty(); }
+  bool takes_runout_edges(const Feed& feed) const {
+    return feed.slope == 0.0 && (!runout.empty() || !tilted.empty() || !reaches.empty());
+  }
 
-  /// Runout of teeth that follow each other all along the edge, under coefficients that do not
-  /// depend on the chip.
+  /// Runout under coefficients that do not depend on the chip.
   bool can_take_runout_edges(const EdgeRule& edge_rule) const {
-    return cutter::has_runout(edges->cutter()) && !edges->variable_helix() &&
-           !edges->variation().with_chip() && edge_rule.rule == Rule::exact &&
-           edges->cutter().flutes <= RunoutEdge::kMostFlutes;
+    return cutter::has_runout(edges->cutter()) && !edges->variation().with_chip() &&
+           edge_rule.rule == Rule::exact && edges->cutter().flutes <= RunoutEdge::kMostFlutes;
   }
 
   int angular_steps;
@@ -173,6 +177,7 @@ struct ForceSampler::Geometry {
   std::vector<Tooth> teeth;
   std::vector<RunoutEdge> runout;  ///< of parallel axes
   std::vector<TiltedEdge> tilted;  ///< of others
+  std::vector<ReachEdge> reaches;  ///< instead, of unlike helix angles
 };
 
 /// What of the geometry depends on the arcs.
@@ -288,15 +293,15 @@ void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, st
 
 void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
-  const bool prepared = geometry_->takes_runout_edges() && feed.slope == 0.0;
-  prepared || is_linear(feed) ? sample_prepared(flute, coefficients, feed, first, count, out)
-                              : sample_nonlinear(flute, coefficients, feed, first, count, out);
+  geometry_->takes_runout_edges(feed) || is_linear(feed)
+      ? sample_prepared(flute, coefficients, feed, first, count, out)
+      : sample_nonlinear(flute, coefficients, feed, first, count, out);
 }
 
 void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
                           const Feed& feed) const {
   const Geometry& g = *geometry_;
-  if (g.takes_runout_edges()) {
+  if (g.takes_runout_edges(feed)) {
     const int from = flute == kAllFlutes ? 0 : flute;
     const int to = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
     for (const RunoutEdge& edge : g.runout) {
@@ -304,6 +309,11 @@ void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coeff
     }
     for (const TiltedEdge& edge : g.tilted) {
       edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
+    }
+    for (const ReachEdge& edge : g.reaches) {
+      if (edge.flute() >= from && edge.flute() <= to) {
+        edge.add_to(run, coefficients, feed, engaged_->arcs);
+      }
     }
     return;
   }

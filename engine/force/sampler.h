@@ -34,8 +34,8 @@ struct ForceSamples {
 /// same bits however the range it is part of was cut. Linear cuts, whose chip is in proportion to
 /// the feed, take prepared series and agree with force_basis() to 3e-14 of the peak (series:
 /// 1e-13), plus what rounding the angle does where a tooth enters within less than that; a test
-/// measures it. Runout of flutes of one helix, fed in the plane, takes series too, (F25), (F28),
-/// and agrees with NonlinearForce to 3e-12 of the peak. All others are that, sample by sample.
+/// measures it. Runout, fed in the plane, takes series too, (F25), (F28), (F33), and agrees with
+/// NonlinearForce to 3e-12 of the peak. All others are that, sample by sample.
 class ForceSampler {
  public:
   /// @param angular_steps  S, samples a revolution, 1 .. 1e7

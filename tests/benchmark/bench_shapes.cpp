@@ -5,8 +5,8 @@
 //
 // First the sampler against as many discs a tooth as they need for an error of 1e-4 of the peak, or
 // what is asked for; the number is searched for and printed. Then unequal flutes, runout (also with
-// a tilted axis) and the size effect against equal flutes, whose prepared series are the fast path.
-// Ratios are of medians. Run it on an idle machine.
+// a tilted axis, or unequal helix angles) and the size effect against equal flutes, whose prepared
+// series are the fast path. Ratios are of medians. Run it on an idle machine.
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
@@ -48,9 +48,10 @@ const Cut kCuts[] = {
 };
 
 /// What makes a cutter other than one of equal flutes and constant coefficients.
-enum class Kind { equal, pitch, helix, runout, tilt, size_effect };
-constexpr Kind kKinds[] = {Kind::equal,  Kind::pitch, Kind::helix,
-                           Kind::runout, Kind::tilt,  Kind::size_effect};
+enum class Kind { equal, pitch, helix, runout, tilt, helix_and_runout, size_effect };
+constexpr Kind kKinds[] = {Kind::equal,      Kind::pitch, Kind::helix,
+                           Kind::runout,     Kind::tilt,  Kind::helix_and_runout,
+                           Kind::size_effect};
 
 const char* name_of(Kind kind) {
   switch (kind) {
@@ -64,6 +65,8 @@ const char* name_of(Kind kind) {
       return "runout";
     case Kind::tilt:
       return "runout_and_tilt";
+    case Kind::helix_and_runout:
+      return "variable_helix_and_runout";
     case Kind::size_effect:
       break;
   }
@@ -80,9 +83,12 @@ cutter::Cutter cutter_of(const Cut& cut, int flutes, Kind kind) {
       cutter.pitch_angles.push_back(2.0 * core::kPi / flutes +
                                     sign * rad_from_deg(10.0 - 2.5 * (j / 2)));
     }
-    if (kind == Kind::helix) cutter.helix_angles.push_back(rad_from_deg(31.0 + sign));
+    if (kind == Kind::helix || kind == Kind::helix_and_runout)
+      cutter.helix_angles.push_back(rad_from_deg(31.0 + sign));
   }
-  if (kind == Kind::runout || kind == Kind::tilt) cutter.runout = {0.01, 0.3};
+  if (kind == Kind::runout || kind == Kind::tilt || kind == Kind::helix_and_runout) {
+    cutter.runout = {0.01, 0.3};
+  }
   if (kind == Kind::tilt) cutter.runout.tilt = rad_from_deg(0.05);
   return cutter;
 }
@@ -190,9 +196,14 @@ void print_kinds(const baseline::MedianReporter& reporter, const Cut& cut, int f
     const auto* other = reporter.find(name_of(cut, flutes, kind));
     if (other && other != equal) std::printf("; %s %.1fx", name_of(kind), other->ns / equal->ns);
   }
-  const auto* pitch = reporter.find(name_of(cut, flutes, Kind::pitch));
-  const auto* runout = reporter.find(name_of(cut, flutes, Kind::runout));
-  if (pitch && runout) std::printf("; runout over variable_pitch %.1fx", runout->ns / pitch->ns);
+  const auto print_over = [&](Kind kind, Kind base) {
+    const auto* one = reporter.find(name_of(cut, flutes, kind));
+    const auto* two = reporter.find(name_of(cut, flutes, base));
+    if (one && two)
+      std::printf("; %s over %s %.1fx", name_of(kind), name_of(base), one->ns / two->ns);
+  };
+  print_over(Kind::runout, Kind::pitch);
+  print_over(Kind::helix_and_runout, Kind::helix);
   std::printf("\n");
 }
 

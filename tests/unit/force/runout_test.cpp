@@ -20,7 +20,8 @@ using testing::distance;
 using testing::Force;
 using testing::uniform;
 
-enum class Axes { parallel, tilted };
+/// Unlike: with helix angles that differ from flute to flute, the axes parallel or not.
+enum class Axes { parallel, tilted, unlike };
 
 /// A cutter whose axis is offset or tilted, and everything else that a sampler has to do with.
 struct RunoutCase {
@@ -101,7 +102,18 @@ RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
   c.feed = {uniform(random, 0.01, 0.2), uniform(random, -10.0, 10.0)};
   c.cutter.runout = {c.feed.per_tooth * std::pow(10.0, uniform(random, -1.7, 0.7)),
                      uniform(random, -4.0, 4.0)};
-  if (axes == Axes::parallel) return c;
+  if (axes == Axes::unlike) {
+    const double middle = core::rad_from_deg(uniform(random, 15.0, 45.0));
+    const double range = core::rad_from_deg(uniform(random, 0.1, 5.0));
+    const double hand = c.cutter.helix_angle < 0.0 ? -1.0 : 1.0;
+    for (int j = 0; j < c.cutter.flutes; ++j) {
+      c.cutter.helix_angles.push_back(hand * (middle + uniform(random, -range, range)));
+    }
+    if (random() % 2) c.cutter.lead = cutter::Lead::constant_helix;
+    if (random() % 2) return c;
+  } else if (axes == Axes::parallel) {
+    return c;
+  }
   const double at_top = c.feed.per_tooth * std::pow(10.0, uniform(random, -1.7, 0.7));
   c.cutter.runout.tilt = std::min(std::atan(at_top / depth), core::rad_from_deg(9.9));
   c.cutter.runout.tilt_angle = uniform(random, -4.0, 4.0);
@@ -146,11 +158,13 @@ Force sample_at(const ForceSamples& samples, std::size_t i) {
 class ForceSamplerWithRunout : public ::testing::TestWithParam<Axes> {};
 
 std::string name_of(const ::testing::TestParamInfo<Axes>& axes) {
-  return axes.param == Axes::parallel ? "Parallel" : "Tilted";
+  return axes.param == Axes::parallel ? "Parallel"
+         : axes.param == Axes::tilted ? "Tilted"
+                                      : "OfUnlikeHelix";
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAxes, ForceSamplerWithRunout,
-                         ::testing::Values(Axes::parallel, Axes::tilted), name_of);
+                         ::testing::Values(Axes::parallel, Axes::tilted, Axes::unlike), name_of);
 
 /// Largest disagreement with the reference over the peak, where it is more than what rounding the
 /// angle by 4e-15 rad does to the reference.
