@@ -95,9 +95,15 @@ class RegimeFinder {
   void split_warily(const Point& low, const Point& high, int depth) {
     constexpr int kDeepest = 3;
     if (depth == kDeepest) return split(low, high);
+    // An end may be zero, as the chip of a turn ago is where the tooth enters: of another reach
+    // than that its sign does not tell.
+    const auto tells = [&](const Point& end, const Point& point) {
+      return (point.value > 0.0) == (end.value > 0.0) &&
+             (point.smallest == end.smallest || std::abs(end.value) > kEqual);
+    };
     const auto hides = [&](const Point& point) {
       return (point.smallest != low.smallest && point.smallest != high.smallest) ||
-             ((low.value > 0.0) == (high.value > 0.0) && (low.value > 0.0) != (point.value > 0.0));
+             (!tells(low, point) && !tells(high, point));
     };
     const auto split_at = [&](const Point& point) {
       at(low.z, low_);

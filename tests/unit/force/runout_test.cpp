@@ -361,6 +361,30 @@ TEST(ShortStretch, WithoutChipIsFoundWhereHelixAnglesDiffer) {
   expect_discs_agree(cutter, 21.693492728641559, {0.05}, 4, 5.2836278784231583);
 }
 
+/// It enters under its own chip of a turn ago, which is zero there, goes over to that of another
+/// tooth, loses it, and has it again at the top.
+TEST(ShortStretch, WithoutChipIsFoundAfterAnEndWithoutChip) {
+  cutter::Cutter cutter{cutter::Shape::flat, 8.22419109203814, 4};
+  cutter.pitch_angles = {1.3902748126918212, 1.1247512589704209, 2.2975383352207377,
+                         1.4706209002966062};
+  cutter.helix_angles = {-0.31271431388296739, -0.2980741760747837, -0.35555633689612753,
+                         -0.33311075591624834};
+  cutter.runout = {0.0095704535271221702, -0.26755360297137631, 0.032345027891061584,
+                   1.1315743646815362};
+  const double depth = 11.475762523571351, tip_angle = -0.05173187;
+  const Feed feed{0.16182278530822472};
+  expect_discs_agree(cutter, depth, feed, 0, tip_angle);
+  const Coefficients edge_alone{0.0, 0.0, 0.0, 10.0, 0.0, 0.0};
+  ForceSamples samples;
+  ForceSampler(cutter, slot(depth), {}, 1)
+      .sample_flute(0, edge_alone, {feed.per_tooth, tip_angle}, 0, 1, samples);
+  const auto edges = std::make_shared<const CuttingEdges>(cutter, depth, Variation{});
+  const std::vector<Arc> slot_arc = {{0.0, core::kPi}};
+  const double by_integral =
+      NonlinearForce(edges, {}).of_flute(0, tip_angle, slot_arc, edge_alone, feed, Rows::forces)[3];
+  EXPECT_NEAR(samples.torque[0], by_integral, 1e-12 * by_integral);
+}
+
 TEST(ShortStretch, WithoutChipIsFoundWhereTheFeedFalls) {
   cutter::Cutter cutter{cutter::Shape::ball, 12.0, 5, 0.84491558495209385};
   cutter.runout = {0.10128853595906753, 4.3233477356028418};
