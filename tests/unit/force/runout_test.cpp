@@ -47,6 +47,15 @@ std::ostream& operator<<(std::ostream& out, const RunoutCase& c) {
              << " feed=" << c.feed.per_tooth << " direction=" << c.feed.direction;
 }
 
+bool flutes_nearly_cross(const cutter::Cutter& cutter, double depth) {
+  const CuttingEdges edges(cutter, depth, {});
+  double least = 1.0;
+  for (int j = 0; j < cutter.flutes; ++j) {
+    least = std::min(least, edges.pitch_ratio(j, edges.envelope().lag(depth)));
+  }
+  return least < 0.1;
+}
+
 /// Offsets from a fiftieth of the feed, where every tooth cuts, to five times of it, where most
 /// miss their cut; of tilted axes the same at the top of the cut, and some without offset.
 RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
@@ -110,6 +119,9 @@ RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
       c.cutter.helix_angles.push_back(hand * (middle + uniform(random, -range, range)));
     }
     if (random() % 2) c.cutter.lead = cutter::Lead::constant_helix;
+    while (flutes_nearly_cross(c.cutter, depth)) {
+      for (double& helix : c.cutter.helix_angles) helix += 0.5 * (hand * middle - helix);
+    }
     if (random() % 2) return c;
   } else if (axes == Axes::parallel) {
     return c;
