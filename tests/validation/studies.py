@@ -266,6 +266,33 @@ def runout_and_pitch(program, folder, check):
                 f"{energy[-1, 0, 0] / energy[0, 0, 0]:.3f} of the power")
 
 
+def unlike_helix(program, folder, check):
+    result = run(program, "unlike_helix", folder)
+    share = np.array([result[f"flute_{j}_load_share"] for j in range(1, 5)])
+    off = np.abs(share.sum(axis=0) - 1).max()
+    check.holds("the shares sum to one", off < 1e-12, f"{off:.1e}")
+    even = share[:, :, :, 0]
+    off = np.abs(even[:, 0] - 0.25).max()
+    check.holds("without runout equal flutes share alike", off < 1e-12, f"{off:.1e}")
+    off = max(np.abs(even[0, 1] - even[2, 1]).max(), np.abs(even[1, 1] - even[3, 1]).max())
+    check.holds("and unlike ones by turns", off < 1e-12, f"{off:.1e}")
+    for name, printed, value in (
+            ("unlike, no runout, 15 mm: least share", "0.2385", even[:, 1, -1].min()),
+            ("unlike, no runout, 15 mm: largest share", "0.2615", even[:, 1, -1].max()),
+            ("unlike, 0.01 mm, 15 mm: least share", "0.1603", share[:, 1, -1, 10].min()),
+            ("unlike, 0.01 mm, 15 mm: largest share", "0.3697", share[:, 1, -1, 10].max()),
+            ("equal, 0.01 mm, 15 mm: least share", "0.1517", share[:, 0, -1, 10].min()),
+            ("equal, 0.01 mm, 15 mm: largest share", "0.3540", share[:, 0, -1, 10].max()),
+            ("unlike, 0.02 mm, 10 mm: least share", "0.0500", share[:, 1, 9, 20].min()),
+            ("unlike, 0.02 mm, 10 mm: largest share", "0.5000", share[:, 1, 9, 20].max())):
+        check.number(name, "own run", printed, value)
+    one = ['sweep.axes."cutter.helix_deg"=[[35.0, 38.0, 35.0, 38.0]]', 'sweep.axes."cut.axial_depth_mm"=[10.0]',
+           'sweep.axes."cutter.runout_offset_mm"=[0.02]']
+    discs = run(program, "unlike_helix", folder, *one, "numerics.rule=discs", "numerics.discs=20000")
+    off = np.abs(np.array([discs[f"flute_{j}_load_share"].item() for j in range(1, 5)]) - share[:, 1, 9, 20]).max()
+    check.holds("20 000 discs share the work alike", off < 1e-6, f"{off:.1e}")
+
+
 def cutter_shapes(program, folder, check):
     result = run(program, "cutter_shapes", folder)
     check.holds("every shape is computed", not result["status"].any(), f"{result['status'].size} points")
