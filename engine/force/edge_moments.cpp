@@ -42,37 +42,39 @@ NodeLoads loads_of_feeds(const CuttingEdges& edges, int flute, const EdgeNode& n
   return {ratio * node.sin_kappa * node.width, -ratio * node.cos_kappa * node.width, node.length};
 }
 
-void EdgeMoments::add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
-                      const NodeLoads& loads, double delta) {
+EdgeMoments EdgeMoments::of(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
+                            double delta) {
   const Weights weights = weights_of(rows, node);
   const std::array<double, 6> factors = edges.factors(flute, node);
   const double c1 = std::cos(delta), s1 = std::sin(delta);
   const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
+  EdgeMoments moments;
   for (int q = 0; q < kColumns; ++q) {
-    const double planar = weights.planar[q], axial = weights.axial[q];
-    const double chip_load = loads.chip * factors[q];
-    const double edge_load = loads.edge * factors[kColumns + q];
-    const double still_load = loads.still * factors[q];
-    double* chip = &values_[kChip * q];
-    chip[0] += chip_load * planar;
-    chip[1] += chip_load * planar * c2;
-    chip[2] += chip_load * planar * s2;
-    chip[3] += chip_load * axial * c1;
-    chip[4] += chip_load * axial * s1;
-    double* edge = &values_[kEdge + kStill * q];
-    edge[0] += edge_load * planar * c1;
-    edge[1] += edge_load * planar * s1;
-    edge[2] += edge_load * axial;
-    double* plunge = &values_[kPlunge + kStill * q];
-    plunge[0] += still_load * planar * c1;
-    plunge[1] += still_load * planar * s1;
-    plunge[2] += still_load * axial;
+    const double chip_planar = factors[q] * weights.planar[q];
+    const double chip_axial = factors[q] * weights.axial[q];
+    const double edge_planar = factors[kColumns + q] * weights.planar[q];
+    const std::array<double, kChip> chip = {chip_planar, chip_planar * c2, chip_planar * s2,
+                                            chip_axial * c1, chip_axial * s1};
+    const std::array<double, kStill> edge = {edge_planar * c1, edge_planar * s1,
+                                             factors[kColumns + q] * weights.axial[q]};
+    const std::array<double, kStill> plunge = {chip_planar * c1, chip_planar * s1, chip_axial};
+    const auto first = moments.values_.begin();
+    std::copy(chip.begin(), chip.end(), first + kChip * q);
+    std::copy(edge.begin(), edge.end(), first + kEdge + kStill * q);
+    std::copy(plunge.begin(), plunge.end(), first + kPlunge + kStill * q);
   }
+  return moments;
 }
 
-void EdgeMoments::turn(double lag) {
+void EdgeMoments::add(const EdgeMoments& unit, const NodeLoads& loads) {
+  for (int k = 0; k < kEdge; ++k) values_[k] += loads.chip * unit.values_[k];
+  for (int k = kEdge; k < kPlunge; ++k) values_[k] += loads.edge * unit.values_[k];
+  for (int k = kPlunge; k < kCount; ++k) values_[k] += loads.still * unit.values_[k];
+}
+
+void EdgeMoments::turn(double cos_lag, double sin_lag) {
   // delta, negative for places below the point of a right-hand edge, falls by the lag.
-  const double c1 = std::cos(lag), s1 = -std::sin(lag);
+  const double c1 = cos_lag, s1 = -sin_lag;
   const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
   for (int q = 0; q < kColumns; ++q) {
     double* chip = &values_[kChip * q];
@@ -133,14 +135,24 @@ SeriesVariable variable_of(const EdgePiece& piece) {
 /// Chebyshev coefficients of values at the nodes.
 std::vector<EdgeMoments> chebyshev(const ChebyshevNodes& all,
                                    const std::vector<EdgeMoments>& values) {
-  const int nodes = static_cast<int>(values.size());
+  const int nodes = static_cast<int>(values.size()), half = nodes / 2;
+  // Of values at opposite nodes even terms have the sum, odd ones the difference.
+  std::array<std::vector<EdgeMoments>, 2> pairs = {std::vector<EdgeMoments>(half),
+                                                   std::vector<EdgeMoments>(half)};
+  for (int i = 0; i < half; ++i) {
+    const auto &one = values[i].values(), &opposite = values[nodes - 1 - i].values();
+    for (int k = 0; k < EdgeMoments::kCount; ++k) {
+      pairs[0][i].values()[k] = one[k] + opposite[k];
+      pairs[1][i].values()[k] = one[k] - opposite[k];
+    }
+  }
   std::vector<EdgeMoments> terms(nodes);
   for (int m = 0; m < nodes; ++m) {
     auto& sum = terms[m].values();
-    for (int i = 0; i < nodes; ++i) {
+    for (int i = 0; i < half; ++i) {
       const double factor = all.weight(m, i);
-      const auto& value = values[i].values();
-      for (int k = 0; k < EdgeMoments::kCount; ++k) sum[k] += factor * value[k];
+      const auto& pair = pairs[m % 2][i].values();
+      for (int k = 0; k < EdgeMoments::kCount; ++k) sum[k] += factor * pair[k];
     }
   }
   return terms;
@@ -187,25 +199,34 @@ void turn_to_powers(MomentSeries& series) {
   series.kind = Terms::powers;
 }
 
+using LoadsOf = std::function<void(const EdgeNode&, std::span<NodeLoads>)>;
+
 /// Moments from the lower end on, up to a point that goes up.
 class Growing {
  public:
-  Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-          const std::function<NodeLoads(const EdgeNode&)>& loads)
+  Growing(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece, int count,
+          const LoadsOf& loads_of)
       : edges_(edges),
         rows_(rows),
         flute_(flute),
         piece_(piece),
-        loads_(loads),
+        loads_of_(loads_of),
         tangent_(edges.flutes()[flute].helix_tangent),
-        height_(piece.bottom) {}
+        height_(piece.bottom),
+        loads_(count),
+        moments_(count) {}
 
-  const EdgeMoments& at(double z) {
+  const std::vector<EdgeMoments>& at(double z) {
     if (z <= height_) return moments_;
     const double lag = edges_.envelope().lag(z);
-    moments_.turn(tangent_ * (lag - edges_.envelope().lag(height_)));
+    const double further = tangent_ * (lag - edges_.envelope().lag(height_));
+    const double cosine = std::cos(further), sine = std::sin(further);
+    for (EdgeMoments& moments : moments_) moments.turn(cosine, sine);
     edges_.for_each_node(piece_, tangent_, height_, z, [&](const EdgeNode& node) {
-      moments_.add(edges_, rows_, flute_, node, loads_(node), tangent_ * (node.lag - lag));
+      loads_of_(node, loads_);
+      const EdgeMoments unit =
+          EdgeMoments::of(edges_, rows_, flute_, node, tangent_ * (node.lag - lag));
+      for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i].add(unit, loads_[i]);
     });
     height_ = z;
     return moments_;
@@ -216,46 +237,61 @@ class Growing {
   Rows rows_;
   int flute_;
   const EdgePiece& piece_;
-  const std::function<NodeLoads(const EdgeNode&)>& loads_;
+  const LoadsOf& loads_of_;
   double tangent_;
   double height_;
-  EdgeMoments moments_;
+  std::vector<NodeLoads> loads_;
+  std::vector<EdgeMoments> moments_;
 };
+
+/// Drops what is nothing beside the largest term.
+/// @return whether the terms fell so far
+bool finish(MomentSeries& series) {
+  double most = 0.0;
+  for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
+  const std::size_t nodes = series.terms.size();
+  const double tail = std::max(largest(series.terms[nodes - 1]), largest(series.terms[nodes - 2]));
+  while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
+    series.terms.pop_back();
+  }
+  turn_to_powers(series);
+  return tail <= kResolved * most;
+}
 
 }  // namespace
 
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute,
                            const EdgePiece& piece) {
-  return moment_series(edges, rows, flute, piece,
-                       [&](const EdgeNode& node) { return loads_of_feeds(edges, flute, node); });
+  return moment_series(edges, rows, flute, piece, 1,
+                       [&](const EdgeNode& node, std::span<NodeLoads> loads) {
+                         loads[0] = loads_of_feeds(edges, flute, node);
+                       })[0];
 }
 
-MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-                           const std::function<NodeLoads(const EdgeNode&)>& loads) {
+std::vector<MomentSeries> moment_series(const CuttingEdges& edges, Rows rows, int flute,
+                                        const EdgePiece& piece, int count, const LoadsOf& loads) {
   const SeriesVariable variable = variable_of(piece);
   const double lag1 = edges.envelope().lag(piece.bottom);
   const double lag2 = edges.envelope().lag(piece.top);
-  for (const int nodes : {24, 48, 96}) {
-    MomentSeries series{variable, Terms::chebyshev, std::vector<EdgeMoments>(nodes), {}};
-    const ChebyshevNodes all(nodes);
-    Growing edge(edges, rows, flute, piece, loads);
+  for (const int nodes : ChebyshevNodes::kCounts) {
+    std::vector<MomentSeries> all(count, {variable, Terms::chebyshev, {}, {}});
+    for (MomentSeries& series : all) series.terms.resize(nodes);
+    const ChebyshevNodes& chebyshev_nodes = ChebyshevNodes::of(nodes);
+    Growing edge(edges, rows, flute, piece, count, loads);
     for (int i = nodes - 1; i >= 0; --i) {  // upward
-      const double part = variable.part_at(all.node(i));
-      series.terms[i] = edge.at(std::clamp(
+      const double part = variable.part_at(chebyshev_nodes.node(i));
+      const std::vector<EdgeMoments>& moments = edge.at(std::clamp(
           edges.envelope().height_at_lag(lag1 + part * (lag2 - lag1)), piece.bottom, piece.top));
+      for (int k = 0; k < count; ++k) all[k].terms[i] = moments[k];
     }
-    series.whole = edge.at(piece.top);
-    series.terms = chebyshev(all, series.terms);
-    double most = 0.0;
-    for (const EdgeMoments& term : series.terms) most = std::max(most, largest(term));
-    const double tail =
-        std::max(largest(series.terms[nodes - 1]), largest(series.terms[nodes - 2]));
-    if (tail > kResolved * most && nodes < 96) continue;
-    while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
-      series.terms.pop_back();
+    const std::vector<EdgeMoments>& whole = edge.at(piece.top);
+    bool resolved = true;
+    for (int k = 0; k < count; ++k) {
+      all[k].whole = whole[k];
+      all[k].terms = chebyshev(chebyshev_nodes, all[k].terms);
+      resolved &= finish(all[k]);
     }
-    turn_to_powers(series);
-    return series;
+    if (resolved || nodes == ChebyshevNodes::kCounts.back()) return all;
   }
   __builtin_unreachable();
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "force/edge.h"
@@ -43,12 +44,15 @@ class EdgeMoments {
   const std::array<double, kCount>& values() const { return values_; }
   std::array<double, kCount>& values() { return values_; }
 
-  /// Adds a node that is delta behind the point.
-  void add(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
-           const NodeLoads& loads, double delta);
+  /// Those of a node of unit loads that is delta behind the point.
+  static EdgeMoments of(const CuttingEdges& edges, Rows rows, int flute, const EdgeNode& node,
+                        double delta);
+
+  /// Adds those of a node of unit loads, times its loads.
+  void add(const EdgeMoments& unit, const NodeLoads& loads);
 
   /// Goes on to a point that is further up by a lag: what is there falls behind by it.
-  void turn(double lag);
+  void turn(double cos_lag, double sin_lag);
 
   /// The force of the stretch with its upper point at b, (F3), (F14); rows in feed axes.
   Basis<double> basis(Rows rows, double cos_b, double sin_b) const;
@@ -72,8 +76,12 @@ struct MomentSeries {
 /// (F14): terms below 3e-16 of the largest are dropped; 24 or 48 are prepared, a whole ball at 80
 /// deg takes 96. Of a ball at 30 deg about 21 remain.
 MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece);
-/// @param loads  of every node
-MomentSeries moment_series(const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece,
-                           const std::function<NodeLoads(const EdgeNode&)>& loads);
+
+/// So many series of one piece that differ in the loads of its nodes, prepared from as many points
+/// as the one that needs most.
+/// @param loads  writes those of a node, in the order of the series
+std::vector<MomentSeries> moment_series(
+    const CuttingEdges& edges, Rows rows, int flute, const EdgePiece& piece, int count,
+    const std::function<void(const EdgeNode&, std::span<NodeLoads>)>& loads);
 
 }  // namespace millstudy::force

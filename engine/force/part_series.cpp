@@ -9,7 +9,7 @@ namespace {
 
 /// Chebyshev coefficients by as many nodes.
 std::vector<double> coefficients(const std::function<double(double)>& function, int nodes) {
-  const ChebyshevNodes all(nodes);
+  const ChebyshevNodes& all = ChebyshevNodes::of(nodes);
   std::vector<double> terms(nodes);
   for (int i = 0; i < nodes; ++i) {
     const double value = function(0.5 + 0.5 * all.node(i));
@@ -21,9 +21,8 @@ std::vector<double> coefficients(const std::function<double(double)>& function, 
 }  // namespace
 
 PartSeries::PartSeries(const std::function<double(double)>& function, double negligible) {
-  constexpr int kMostNodes = 96;
   std::vector<double> terms;
-  for (int nodes = 24; nodes <= kMostNodes; nodes *= 2) {
+  for (const int nodes : ChebyshevNodes::kCounts) {
     terms = coefficients(function, nodes);
     if (std::abs(terms[nodes - 1]) + std::abs(terms[nodes - 2]) <= negligible) break;
   }

@@ -14,48 +14,30 @@
 namespace millstudy::force {
 namespace {
 
-/// How far a flute stands out over another at the points of a piece: turning times exp(i psi), of
-/// which it is the real part, psi the lag angle of the one.
-class RadiusAhead {
+/// The vectors by which a flute stands out over others, of which what it stands out at a point is
+/// the real part when they are turned by exp(i psi), psi the lag angle.
+class VectorsAhead {
  public:
-  RadiusAhead(const CuttingEdges& edges, int flute, int other, const EdgePiece& piece)
-      : envelope_(edges.envelope()),
-        own_(edges.cutter().runout, edges.flutes()[flute].position),
-        other_(edges.cutter().runout, edges.flutes()[other].position),
-        own_tangent_(edges.flutes()[flute].helix_tangent),
-        other_tangent_(edges.flutes()[other].helix_tangent),
-        bottom_(envelope_.lag(piece.bottom)),
-        range_(envelope_.lag(piece.top) - bottom_) {}
-
-  double at(double z, double lag) const {
-    return own_.at(z, direction(own_tangent_ * lag)) -
-           other_.at(z, direction(other_tangent_ * lag));
-  }
-  double at(double part) const {
-    const double lag = lag_of(part);
-    return at(envelope_.height_at_lag(lag), lag);
+  VectorsAhead(const CuttingEdges& edges, int flute) : flutes_(edges.flutes()), flute_(flute) {
+    for (const cutter::Flute& other : flutes_) {
+      runout_.emplace_back(edges.cutter().runout, other.position);
+    }
   }
 
-  std::complex<double> turning(double part) const {
-    const double lag = lag_of(part), z = envelope_.height_at_lag(lag);
-    return vector(own_, z) -
-           vector(other_, z) * std::polar(1.0, (other_tangent_ - own_tangent_) * lag);
+  /// @param lag  of the envelope at z
+  std::complex<double> over(int other, double z, double lag) const {
+    const double behind = (flutes_[other].helix_tangent - flutes_[flute_].helix_tangent) * lag;
+    return vector(flute_, z) - vector(other, z) * std::polar(1.0, behind);
   }
 
  private:
-  double lag_of(double part) const { return bottom_ + part * range_; }
-  static std::array<double, 2> direction(double psi) { return {std::cos(psi), std::sin(psi)}; }
-  static std::complex<double> vector(const RadialRunout& runout, double z) {
-    return {runout.at(z, {1.0, 0.0}), -runout.at(z, {0.0, 1.0})};
+  std::complex<double> vector(int flute, double z) const {
+    return {runout_[flute].at(z, {1.0, 0.0}), -runout_[flute].at(z, {0.0, 1.0})};
   }
 
-  const cutter::Envelope& envelope_;
-  RadialRunout own_;
-  RadialRunout other_;
-  double own_tangent_;
-  double other_tangent_;
-  double bottom_;  ///< lag per tangent [rad]
-  double range_;
+  const std::vector<cutter::Flute>& flutes_;
+  int flute_;
+  std::vector<RadialRunout> runout_;
 };
 
 }  // namespace
@@ -65,63 +47,82 @@ ReachEdge::ReachEdge(const CuttingEdges& edges, Rows rows, int flute, const Edge
       flute_(flute),
       position_(edges.flutes()[flute].position),
       piece_(edges.envelope(), edges.flutes()[flute].helix_tangent, piece) {
-  constexpr int kLooks = 64;
-  constexpr double kNegligible = 3e-15;  // of the largest
+  const cutter::Envelope& envelope = edges.envelope();
   const int count = static_cast<int>(edges.flutes().size());
-  const double lag1 = edges.envelope().lag(piece.bottom), lag2 = edges.envelope().lag(piece.top);
+  const double tangent = edges.flutes()[flute].helix_tangent;
+  const double bottom = envelope.lag(piece.bottom), range = envelope.lag(piece.top) - bottom;
   double steepest = 0.0;
   for (const cutter::Flute& other : edges.flutes()) {
     steepest = std::max(steepest, std::abs(other.helix_tangent));
   }
-  longest_lag_ = steepest * (lag2 - lag1);
-  std::vector<std::array<std::complex<double>, kLooks + 1>> radius;
-  for (int m = 1; m <= count; ++m) {
-    const RadiusAhead ahead(edges, flute, (flute + m) % count, piece);
-    const auto ratio_at = [&](double lag) {
-      return m == count ? static_cast<double>(count) : edges.pitch_ratio(flute, lag, m);
-    };
-    radius.emplace_back();
-    double size = 0.0;
-    for (int i = 0; i <= kLooks; ++i) {
-      radius.back()[i] = ahead.turning(static_cast<double>(i) / kLooks);
-      size = std::max(size, std::abs(radius.back()[i]));
+  longest_lag_ = steepest * range;
+
+  constexpr int kLooks = 32;
+  const VectorsAhead vectors(edges, flute);
+  std::vector<std::array<std::complex<double>, kLooks + 1>> ahead(count);
+  std::vector<double> size(count);  // largest, or 1 if none is
+  for (int i = 0; i <= kLooks; ++i) {
+    const double lag = bottom + range * i / kLooks, z = envelope.height_at_lag(lag);
+    for (int m = 0; m < count; ++m) {
+      ahead[m][i] = vectors.over((flute + m + 1) % count, z, lag);
+      size[m] = std::max(size[m], std::abs(ahead[m][i]));
     }
-    const double per_size = size > 0.0 ? 1.0 / size : 0.0;
-    reaches_.push_back(
-        {ratio_at(lag1), ratio_at(lag2) - ratio_at(lag1),
-         PartSeries([&](double part) { return ahead.at(part); }, kNegligible * size), size,
-         moment_series(edges, rows, flute, piece, [&](const EdgeNode& node) -> NodeLoads {
-           const double area = node.sin_kappa * node.width;
-           return {ratio_at(node.lag) * area, per_size * ahead.at(node.z, node.lag) * area,
-                   node.length};
-         })});
   }
-  const auto look_at = [&](double ratio, double slope, const auto& radius_at) {
-    Apart apart = {{std::abs(ratio), std::abs(ratio + slope)},
-                   std::abs(slope) * piece_.per_lag,
-                   {std::abs(radius_at(0)), 0.0},
-                   0.0};
+  for (double& largest : size) largest = largest > 0.0 ? largest : 1.0;
+
+  const ChipLaw law(edges);
+  std::vector<force::Reach> reaches(count);
+  const auto find = [&](double z, double lag) {
+    law.find(flute, {z, lag, {std::cos(tangent * lag), std::sin(tangent * lag)}}, reaches);
+  };
+  std::vector<MomentSeries> moments = moment_series(
+      edges, rows, flute, piece, count, [&](const EdgeNode& node, std::span<NodeLoads> loads) {
+        const double area = node.sin_kappa * node.width;
+        find(node.z, node.lag);
+        for (int m = 0; m < count; ++m) {
+          loads[m] = {reaches[m].ratio * area, reaches[m].ahead / size[m] * area, node.length};
+        }
+      });
+  find(piece.bottom, bottom);
+  const std::vector<force::Reach> lowest = reaches;
+  find(piece.top, bottom + range);
+  const std::vector<force::Reach> highest = reaches;
+  constexpr double kNegligible = 3e-15;  // of the largest
+  for (int m = 0; m < count; ++m) {
+    const auto ahead_at = [&](double part) {
+      const double lag = bottom + part * range;
+      find(envelope.height_at_lag(lag), lag);
+      return reaches[m].ahead;
+    };
+    reaches_.push_back({lowest[m].ratio, highest[m].ratio - lowest[m].ratio,
+                        PartSeries(ahead_at, kNegligible * size[m]), size[m],
+                        std::move(moments[m])});
+  }
+
+  const auto look_at = [&](double ratio, double slope, const auto& vector_at) {
+    std::array<double, 2> square = {std::norm(vector_at(0)), 0.0};
     double step = 0.0;
     for (int i = 0; i <= kLooks; ++i) {
-      const double size = std::abs(radius_at(i));
-      apart.radius = {std::min(apart.radius[0], size), std::max(apart.radius[1], size)};
-      if (i > 0) step = std::max(step, std::abs(radius_at(i) - radius_at(i - 1)));
+      const double here = std::norm(vector_at(i));
+      square = {std::min(square[0], here), std::max(square[1], here)};
+      if (i > 0) step = std::max(step, std::norm(vector_at(i) - vector_at(i - 1)));
     }
     // What goes on between the looks: they turn by a small angle from one to the next.
-    constexpr double kMore = 1.1;
-    apart.radius = {std::max(0.0, apart.radius[0] - kMore * step), apart.radius[1] + kMore * step};
-    apart.radius_speed = kMore * step * kLooks * piece_.per_lag;
-    if (apart.ratio[0] > apart.ratio[1]) std::swap(apart.ratio[0], apart.ratio[1]);
-    if (ratio * (ratio + slope) < 0.0) apart.ratio[0] = 0.0;
-    apart_.push_back(apart);
+    step = 1.1 * std::sqrt(step);
+    const double at_bottom = std::abs(ratio), at_top = std::abs(ratio + slope);
+    const bool turns = ratio * (ratio + slope) < 0.0;
+    apart_.push_back({{turns ? 0.0 : std::min(at_bottom, at_top), std::max(at_bottom, at_top)},
+                      std::abs(slope) * piece_.per_lag,
+                      {std::max(0.0, std::sqrt(square[0]) - step), std::sqrt(square[1]) + step},
+                      step * kLooks * piece_.per_lag});
   };
   for (int m = 0; m < count; ++m) {
     const Reach& one = reaches_[m];
-    look_at(one.ratio, one.ratio_slope, [&](int i) { return radius[m][i]; });
+    look_at(one.ratio, one.ratio_slope, [&](int i) { return ahead[m][i]; });
     for (int n = 0; n < m; ++n) {
       const Reach& two = reaches_[n];
       look_at(one.ratio - two.ratio, one.ratio_slope - two.ratio_slope,
-              [&](int i) { return radius[m][i] - radius[n][i]; });
+              [&](int i) { return ahead[m][i] - ahead[n][i]; });
     }
   }
 }

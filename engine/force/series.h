@@ -49,21 +49,35 @@ class SeriesVariable {
 /// series.
 class ChebyshevNodes {
  public:
-  explicit ChebyshevNodes(int count) : count_(count) {
-    cosines_.reserve(4 * count);
-    for (int i = 0; i < 4 * count; ++i) {
-      cosines_.push_back(std::cos(0.5 * core::kPi * i / count));
-    }
+  /// As many as series are tried with, one after the other.
+  static constexpr std::array<int, 3> kCounts = {24, 48, 96};
+
+  /// @param count  one of kCounts
+  static const ChebyshevNodes& of(int count) {
+    static const std::array<ChebyshevNodes, 3> all = {
+        ChebyshevNodes(kCounts[0]), ChebyshevNodes(kCounts[1]), ChebyshevNodes(kCounts[2])};
+    return all[count == kCounts[0] ? 0 : count == kCounts[1] ? 1 : 2];
   }
 
-  double node(int i) const { return cosines_[2 * i + 1]; }
-  double weight(int term, int i) const {
-    return (term == 0 ? 1.0 : 2.0) / count_ * cosines_[term * (2 * i + 1) % (4 * count_)];
-  }
+  double node(int i) const { return nodes_[i]; }
+  /// That of the node opposite, count - 1 - i, is the same, of odd terms its negative.
+  double weight(int term, int i) const { return weights_[term * count_ + i]; }
 
  private:
+  explicit ChebyshevNodes(int count) : count_(count) {
+    for (int term = 0; term < count; ++term) {
+      for (int i = 0; i < count; ++i) {
+        const double turned = term * (2 * i + 1) % (4 * count);
+        weights_.push_back((term == 0 ? 1.0 : 2.0) / count *
+                           std::cos(0.5 * core::kPi * turned / count));
+      }
+    }
+    for (int i = 0; i < count; ++i) nodes_.push_back(std::cos(core::kPi * (i + 0.5) / count));
+  }
+
   int count_;
-  std::vector<double> cosines_;  ///< of pi i / (2 count), a whole turn
+  std::vector<double> nodes_;
+  std::vector<double> weights_;  ///< shape (terms, nodes)
 };
 
 /// What the terms of a series are factors of. Powers take half the time, and lose digits where a

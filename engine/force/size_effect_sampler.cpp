@@ -59,8 +59,8 @@ Basis<double> at_angle(const CuttingEdges& edges, Rows rows, int flute, const Ed
 /// are not enough.
 template <class Function>
 PreparedRows series_of(double length, const Function& f) {
-  for (const int nodes : {24, 48, 96}) {
-    const ChebyshevNodes all(nodes);
+  for (const int nodes : ChebyshevNodes::kCounts) {
+    const ChebyshevNodes& all = ChebyshevNodes::of(nodes);
     std::vector<Basis<double>> values(nodes);
     for (int i = 0; i < nodes; ++i) {
       const double u = 0.5 + 0.5 * all.node(i);

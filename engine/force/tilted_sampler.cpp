@@ -27,10 +27,11 @@ TiltedEdge::TiltedEdge(const CuttingEdges& edges, Rows rows, const EdgePiece& pi
       piece_(edges.envelope(), edges.flutes()[0].helix_tangent, piece),
       middle_(0.5 * (piece.bottom + piece.top)),
       heights_(height_series(edges.envelope(), piece)),
-      series_(moment_series(edges, rows, 0, piece)),
-      by_height_(moment_series(edges, rows, 0, piece, [this](const EdgeNode& node) -> NodeLoads {
-        return {(node.z - middle_) * node.sin_kappa * node.width, 0.0, 0.0};
-      })) {}
+      series_(moment_series(edges, rows, 0, piece, 2,
+                            [&](const EdgeNode& node, std::span<NodeLoads> loads) {
+                              loads[0] = loads_of_feeds(edges, 0, node);
+                              loads[1] = {(node.z - middle_) * loads[0].chip, 0.0, 0.0};
+                            })) {}
 
 /// A place with what does not depend on the spindle angle.
 struct TiltedEdge::Node : Place {
@@ -206,8 +207,8 @@ void TiltedEdge::add_to(SamplingRun& run, const CuttingEdges& edges, int first, 
                         const Coefficients& k, const Feed& feed, std::span<const Arc> arcs) const {
   const Angle axes(std::remainder(feed.direction, core::kTurn) +
                    (rows_ == Rows::moments ? 0.5 * core::kPi : 0.0));
-  const RunoutStretch stretch(series_, k, axes.cosine, axes.sine);
-  const RunoutStretch by_height(by_height_, k, axes.cosine, axes.sine);
+  const RunoutStretch stretch(series_[0], k, axes.cosine, axes.sine);
+  const RunoutStretch by_height(series_[1], k, axes.cosine, axes.sine);
   const std::vector<ArcLimit> limits =
       limits_of(arcs, stretch, feed.per_tooth * static_cast<double>(edges.flutes().size()));
   Sweep::Scratch scratch;
