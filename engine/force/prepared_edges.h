@@ -142,8 +142,8 @@ class TiltedEdge {
   LaggingPiece piece_;
   double middle_;  ///< height above the tip [mm]
   PartSeries heights_;
-  std::vector<MomentSeries>
-      series_;  ///< plain, and with the height above the middle as a factor of the chip
+  /// Plain, and with the height above the middle as a factor of the chip.
+  std::vector<MomentSeries> series_;
 };
 
 /// Any piece of one tooth of a cutter with runout whose helix angles differ, (F33): its axis offset
