@@ -95,15 +95,9 @@ class RegimeFinder {
   void split_warily(const Point& low, const Point& high, int depth) {
     constexpr int kDeepest = 3;
     if (depth == kDeepest) return split(low, high);
-    // An end may be zero, as the chip of a turn ago is where the tooth enters: of another reach
-    // than that its sign does not tell.
-    const auto tells = [&](const Point& end, const Point& point) {
-      return (point.value > 0.0) == (end.value > 0.0) &&
-             (point.smallest == end.smallest || std::abs(end.value) > kEqual);
-    };
     const auto hides = [&](const Point& point) {
       return (point.smallest != low.smallest && point.smallest != high.smallest) ||
-             (!tells(low, point) && !tells(high, point));
+             ((low.value > 0.0) == (high.value > 0.0) && (low.value > 0.0) != (point.value > 0.0));
     };
     const auto split_at = [&](const Point& point) {
       at(low.z, low_);
@@ -125,7 +119,14 @@ class RegimeFinder {
         if (hides(extreme)) return split_at(extreme);
       }
     }
-    split(low, high);
+    // Of the reach of one end and the sign of the other, which is of another reach: one crossing
+    // and one zero may be all, or it may be that of the one end once more.
+    const auto is_like = [&](const Point& end) {
+      return middle.smallest == end.smallest && (middle.value > 0.0) == (end.value > 0.0);
+    };
+    if (is_like(low) || is_like(high)) return split(low, high);
+    split(low, middle);
+    split(middle, high);
   }
 
   /// The height at a part of the way, 0 .. 1: of a climbing feed in the variable of (C11), for

@@ -254,6 +254,7 @@ bool finish(MomentSeries& series) {
   while (series.terms.size() > 1 && largest(series.terms.back()) < kNegligible * most) {
     series.terms.pop_back();
   }
+  series.terms.shrink_to_fit();
   turn_to_powers(series);
   return tail <= kResolved * most;
 }

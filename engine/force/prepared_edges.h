@@ -164,7 +164,6 @@ class ReachEdge {
     double ratio;        ///< at the lower end
     double ratio_slope;  ///< over the part
     PartSeries ahead;    ///< [mm]
-    double size;         ///< that it is within [mm]
     MomentSeries moments;
   };
   /// What bounds how fast the phase of a chip, or of the difference of two, turns.
@@ -183,6 +182,7 @@ class ReachEdge {
   Angle position_;
   LaggingPiece piece_;
   double longest_lag_;  ///< of the piece, of the steepest flute [rad]
+  double size_;         ///< what still moments are over [mm]
   std::vector<Reach> reaches_;
   std::vector<Apart> apart_;
 };

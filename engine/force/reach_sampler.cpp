@@ -60,15 +60,16 @@ ReachEdge::ReachEdge(const CuttingEdges& edges, Rows rows, int flute, const Edge
   constexpr int kLooks = 32;
   const VectorsAhead vectors(edges, flute);
   std::vector<std::array<std::complex<double>, kLooks + 1>> ahead(count);
-  std::vector<double> size(count);  // largest, or 1 if none is
+  double size = 0.0;
   for (int i = 0; i <= kLooks; ++i) {
     const double lag = bottom + range * i / kLooks, z = envelope.height_at_lag(lag);
     for (int m = 0; m < count; ++m) {
       ahead[m][i] = vectors.over((flute + m + 1) % count, z, lag);
-      size[m] = std::max(size[m], std::abs(ahead[m][i]));
+      size = std::max(size, std::abs(ahead[m][i]));
     }
   }
-  for (double& largest : size) largest = largest > 0.0 ? largest : 1.0;
+  // One for all: a small difference of radii has the rounding of large ones.
+  size_ = size > 0.0 ? size : 1.0;
 
   const ChipLaw law(edges);
   std::vector<force::Reach> reaches(count);
@@ -80,7 +81,7 @@ ReachEdge::ReachEdge(const CuttingEdges& edges, Rows rows, int flute, const Edge
         const double area = node.sin_kappa * node.width;
         find(node.z, node.lag);
         for (int m = 0; m < count; ++m) {
-          loads[m] = {reaches[m].ratio * area, reaches[m].ahead / size[m] * area, node.length};
+          loads[m] = {reaches[m].ratio * area, reaches[m].ahead / size_ * area, node.length};
         }
       });
   find(piece.bottom, bottom);
@@ -95,8 +96,7 @@ ReachEdge::ReachEdge(const CuttingEdges& edges, Rows rows, int flute, const Edge
       return reaches[m].ahead;
     };
     reaches_.push_back({lowest[m].ratio, highest[m].ratio - lowest[m].ratio,
-                        PartSeries(ahead_at, kNegligible * size[m]), size[m],
-                        std::move(moments[m])});
+                        PartSeries(ahead_at, kNegligible * size_), std::move(moments[m])});
   }
 
   const auto look_at = [&](double ratio, double slope, const auto& vector_at) {
@@ -228,7 +228,7 @@ void ReachEdge::add_to(SamplingRun& run, const Coefficients& k, const Feed& feed
   for (const Reach& reach : reaches_) {
     lines.push_back(
         {reach.ahead, feed.per_tooth * reach.ratio, feed.per_tooth * reach.ratio_slope});
-    stretches.emplace_back(reach.moments, reach.size, k, feed.per_tooth, axes.cosine, axes.sine);
+    stretches.emplace_back(reach.moments, size_, k, feed.per_tooth, axes.cosine, axes.sine);
   }
   const double turn = fastest_turn(feed.per_tooth);
   const Cells<Node> cells(piece_, turn, [&](const Place& place) {

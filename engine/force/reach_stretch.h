@@ -39,7 +39,7 @@ class ReachStretch {
 
   /// All of the piece, its upper end at an immersion angle, with the edge forces.
   [[gnu::always_inline]] ForceLanes whole(const SineAndCosine& upper) const {
-    return RunoutStretch::force(whole_, upper, kUnit);
+    return RunoutStretch::force(whole_, upper, unit());
   }
 
   /// The piece from its lower end up to a part of it, where the immersion angle is `upper`.
@@ -59,10 +59,10 @@ class ReachStretch {
                                         const SineAndCosine& upper) const {
     return RunoutStretch::force(
         sum_series<kWorths, kWorths>(kind_, terms.front().data(), terms.size(), variable_.at(part)),
-        upper, kUnit);
+        upper, unit());
   }
 
-  inline static const Line kUnit = {{Lanes{}, Lanes{} + 1.0}, Lanes{} + 1.0};
+  static Line unit() { return {{Lanes{}, Lanes{} + 1.0}, Lanes{} + 1.0}; }
 
   SeriesVariable variable_;
   Terms kind_;

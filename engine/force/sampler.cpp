@@ -124,6 +124,7 @@ struct ForceSampler::Geometry {
       for (const EdgePiece& piece : plain_edges->pieces()) {
         if (edges->variable_helix()) {
           for (int flute = 0; flute < cutter.flutes; ++flute) {
+            core::keep_watch();
             reaches.emplace_back(*edges, rows, flute, piece);
           }
         } else if (parallel) {
@@ -158,6 +159,12 @@ struct ForceSampler::Geometry {
 
   /// Runout under coefficients that do not depend on the chip.
   bool can_take_runout_edges(const EdgeRule& edge_rule) const {
+    // Of unlike helix angles every pair of flutes has its series of every piece: some 20 us and 10
+    // kB.
+    constexpr std::size_t kMostPairs = 2000;
+    const std::size_t flutes = edges->cutter().flutes;
+    if (edges->variable_helix() && flutes * flutes * edges->pieces().size() > kMostPairs)
+      return false;
     return cutter::has_runout(edges->cutter()) && !edges->variation().with_chip() &&
            edge_rule.rule == Rule::exact && edges->cutter().flutes <= RunoutEdge::kMostFlutes;
   }

@@ -35,7 +35,7 @@ struct ForceSamples {
 /// the feed, take prepared series and agree with force_basis() to 3e-14 of the peak (series:
 /// 1e-13), plus what rounding the angle does where a tooth enters within less than that; a test
 /// measures it. Runout, fed in the plane, takes series too, (F25), (F28), (F33), and agrees with
-/// NonlinearForce to 3e-12 of the peak. All others are that, sample by sample.
+/// NonlinearForce to 4e-12 of the peak. All others are that, sample by sample.
 class ForceSampler {
  public:
   /// @param angular_steps  S, samples a revolution, 1 .. 1e7

@@ -65,6 +65,7 @@ RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
   RunoutCase c;
   c.cutter = {kShapes[random() % 4], uniform(random, 4.0, 20.0),
               1 + static_cast<int>(random() % 5)};
+  if (axes == Axes::unlike) c.cutter.flutes += static_cast<int>(random() % 4);
   const double radius = cutter::radius(c.cutter);
   if (random() % 5) c.cutter.helix_angle = core::rad_from_deg(uniform(random, 2.0, 55.0));
   if (random() % 2) c.cutter.helix_angle = -c.cutter.helix_angle;
@@ -115,12 +116,15 @@ RunoutCase random_runout_case(std::mt19937_64& random, Axes axes) {
     const double middle = core::rad_from_deg(uniform(random, 15.0, 45.0));
     const double range = core::rad_from_deg(uniform(random, 0.1, 5.0));
     const double hand = c.cutter.helix_angle < 0.0 ? -1.0 : 1.0;
+    std::vector<double>& helix = c.cutter.helix_angles;
     for (int j = 0; j < c.cutter.flutes; ++j) {
-      c.cutter.helix_angles.push_back(hand * (middle + uniform(random, -range, range)));
+      const bool as_before = j > 0 && random() % 4 == 0;
+      helix.push_back(as_before ? helix.back() : hand * (middle + uniform(random, -range, range)));
     }
+    if (hand > 0.0 && random() % 10 == 0) helix[random() % helix.size()] = 0.0;
     if (random() % 2) c.cutter.lead = cutter::Lead::constant_helix;
     while (flutes_nearly_cross(c.cutter, depth)) {
-      for (double& helix : c.cutter.helix_angles) helix += 0.5 * (hand * middle - helix);
+      for (double& angle : helix) angle += 0.5 * (hand * middle - angle);
     }
     if (random() % 2) return c;
   } else if (axes == Axes::parallel) {
@@ -351,9 +355,9 @@ TEST(TiltedAxis, AToothThatTakesOverForAShortStretchIsNotMissed) {
   EXPECT_NEAR(samples.torque[0], by_discs, 2e-6 * by_discs);
 }
 
-/// Of a tooth that misses its cut along a hundredth of its edge.
-void expect_discs_agree(const cutter::Cutter& cutter, double depth, const Feed& feed, int flute,
-                        double tip_angle) {
+/// Of a tooth that misses its cut along a part of its edge. @return the torque by discs
+double expect_discs_agree(const cutter::Cutter& cutter, double depth, const Feed& feed, int flute,
+                          double tip_angle) {
   const auto edges = std::make_shared<const CuttingEdges>(cutter, depth, Variation{});
   const std::vector<Arc> slot_arc = {{0.0, core::kPi}};
   const Coefficients edge_alone{0.0, 0.0, 0.0, 10.0, 0.0, 0.0};
@@ -363,6 +367,7 @@ void expect_discs_agree(const cutter::Cutter& cutter, double depth, const Feed& 
   };
   const double by_discs = torque_by({Rule::discs, 1000000});
   EXPECT_NEAR(torque_by({}), by_discs, 1e-5 * by_discs);
+  return by_discs;
 }
 
 TEST(ShortStretch, WithoutChipIsFoundWhereHelixAnglesDiffer) {
@@ -371,6 +376,17 @@ TEST(ShortStretch, WithoutChipIsFoundWhereHelixAnglesDiffer) {
                          0.86937988490255436, 0.79356652895868207};
   cutter.runout = {0.11417513258204781, 1.749667241838236};
   expect_discs_agree(cutter, 21.693492728641559, {0.05}, 4, 5.2836278784231583);
+}
+
+/// Of edge forces alone, in a slot.
+double torque_by_sampler(const cutter::Cutter& cutter, double depth, double feed, int flute,
+                         double tip_angle) {
+  const double position = CuttingEdges(cutter, depth, {}).flutes()[flute].position;
+  ForceSamples samples;
+  ForceSampler(cutter, slot(depth), {}, 1)
+      .sample_flute(flute, {0.0, 0.0, 0.0, 10.0, 0.0, 0.0}, {feed, tip_angle - position}, 0, 1,
+                    samples);
+  return samples.torque[0];
 }
 
 /// It enters under its own chip of a turn ago, which is zero there, goes over to that of another
@@ -383,18 +399,21 @@ TEST(ShortStretch, WithoutChipIsFoundAfterAnEndWithoutChip) {
                          -0.33311075591624834};
   cutter.runout = {0.0095704535271221702, -0.26755360297137631, 0.032345027891061584,
                    1.1315743646815362};
-  const double depth = 11.475762523571351, tip_angle = -0.05173187;
-  const Feed feed{0.16182278530822472};
-  expect_discs_agree(cutter, depth, feed, 0, tip_angle);
-  const Coefficients edge_alone{0.0, 0.0, 0.0, 10.0, 0.0, 0.0};
-  ForceSamples samples;
-  ForceSampler(cutter, slot(depth), {}, 1)
-      .sample_flute(0, edge_alone, {feed.per_tooth, tip_angle}, 0, 1, samples);
-  const auto edges = std::make_shared<const CuttingEdges>(cutter, depth, Variation{});
-  const std::vector<Arc> slot_arc = {{0.0, core::kPi}};
-  const double by_integral =
-      NonlinearForce(edges, {}).of_flute(0, tip_angle, slot_arc, edge_alone, feed, Rows::forces)[3];
-  EXPECT_NEAR(samples.torque[0], by_integral, 1e-12 * by_integral);
+  const double depth = 11.475762523571351, feed = 0.16182278530822472, tip_angle = -0.05173187;
+  const double by_discs = expect_discs_agree(cutter, depth, {feed}, 0, tip_angle);
+  EXPECT_NEAR(torque_by_sampler(cutter, depth, feed, 0, tip_angle), by_discs, 1e-7 * by_discs);
+}
+
+/// It loses its chip, has it again, goes over to that of another tooth, and loses that.
+TEST(ShortStretch, WithoutChipIsFoundBeforeAnEndWithoutChip) {
+  cutter::Cutter cutter{cutter::Shape::flat, 13.393653173182177, 5};
+  cutter.helix_angles = {1.0057162067651388, 0.98043817076575568, 0.9809431600479025,
+                         0.9805115816235197, 0.97762300141606595};
+  cutter.runout = {0.0, 2.5168384760209426, 0.015336845511182867, 2.6382648931130674};
+  const double depth = 28.488007586844663, feed = 0.063105519234824617,
+               tip_angle = 2.5622584229071608;
+  const double by_discs = expect_discs_agree(cutter, depth, {feed}, 0, tip_angle);
+  EXPECT_NEAR(torque_by_sampler(cutter, depth, feed, 0, tip_angle), by_discs, 1e-7 * by_discs);
 }
 
 TEST(ShortStretch, WithoutChipIsFoundWhereTheFeedFalls) {
