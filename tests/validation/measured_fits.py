@@ -143,9 +143,12 @@ def flat_ringing(program, folder):
                             1.0 if WHOLE else 0.4))
     check_records(out, [0.84] * 4 + [0.72])
     check_records(out, [-1.0] * 5, "left_out_r_squared")
-    for name, estimate in out["estimates"].items():
-        if name.endswith("gain"):
-            check(f"{name} {estimate['value']:.2f}, no larger than 3", abs(estimate["value"]) < 3.0)
+    # Two modes of an axis that come close share their gain in several ways that fit alike, and the last bits of a processor choose: of y
+    # 2.5 and -0.1, or 3.9 and -1.7 at an error 1 % less. A pair that cancels would have tens.
+    for axis in "xyz":
+        gains = [out["estimates"][f"dynamometer_{axis}_{mode}_gain"]["value"] for mode in (0, 1)]
+        check(f"dynamometer {axis}: gains {gains[0]:.2f} and {gains[1]:.2f}, together no larger than 3, none than 5",
+              abs(sum(gains)) < 3.0 and max(map(abs, gains)) < 5.0)
     check("the program recommends average forces", any('method = "average"' in remark for remark in out["remarks"]))
 
 
