@@ -14,6 +14,7 @@
 #include "force/lanes.h"
 #include "force/nonlinear_force.h"
 #include "force/prepared_edges.h"
+#include "force/runout_edges.h"
 #include "force/sampling_run.h"
 
 namespace millstudy::force {
@@ -110,28 +111,14 @@ struct ForceSampler::Geometry {
         nonlinear(edges, edge_rule),
         tables(steps, edges->equal_flutes() ? cutter.flutes : 1),
         linear(can_be_linear(edge_rule)),
-        size_effect(variation.with_exponent()) {
+        size_effect(variation.with_exponent()),
+        runout(*edges, *plain_edges, rows, edge_rule) {
     for (const EdgePiece& piece : edges->pieces()) {
       for (const double z : {piece.bottom, piece.top}) {
         const double kappa = piece.segment.kappa_at(z);
         const double cosine = piece.segment.is_cylinder() ? 0.0 : std::cos(kappa);
         lowest_cos_kappa = std::min(lowest_cos_kappa, cosine);
         highest_cos_kappa = std::max(highest_cos_kappa, cosine);
-      }
-    }
-    if (can_take_runout_edges(edge_rule)) {
-      const bool parallel = cutter.runout.tilt == 0.0;
-      for (const EdgePiece& piece : plain_edges->pieces()) {
-        if (edges->variable_helix()) {
-          for (int flute = 0; flute < cutter.flutes; ++flute) {
-            core::keep_watch();
-            reaches.emplace_back(*edges, rows, flute, piece);
-          }
-        } else if (parallel) {
-          runout.emplace_back(*plain_edges, rows, piece);
-        } else {
-          tilted.emplace_back(*plain_edges, rows, piece);
-        }
       }
     }
     if (!linear) return;
@@ -153,22 +140,6 @@ struct ForceSampler::Geometry {
     return !cutter::has_runout(edges->cutter()) && (power || !law.with_chip());
   }
 
-  bool takes_runout_edges(const Feed& feed) const {
-    return feed.slope == 0.0 && (!runout.empty() || !tilted.empty() || !reaches.empty());
-  }
-
-  /// Runout under coefficients that do not depend on the chip.
-  bool can_take_runout_edges(const EdgeRule& edge_rule) const {
-    // Of unlike helix angles every pair of flutes has its series of every piece: some 20 us and 10
-    // kB.
-    constexpr std::size_t kMostPairs = 2000;
-    const std::size_t flutes = edges->cutter().flutes;
-    if (edges->variable_helix() && flutes * flutes * edges->pieces().size() > kMostPairs)
-      return false;
-    return cutter::has_runout(edges->cutter()) && !edges->variation().with_chip() &&
-           edge_rule.rule == Rule::exact && edges->cutter().flutes <= RunoutEdge::kMostFlutes;
-  }
-
   int angular_steps;
   Rows rows;
   std::shared_ptr<const CuttingEdges> edges;
@@ -182,9 +153,7 @@ struct ForceSampler::Geometry {
   double highest_cos_kappa = 0.0;
   std::vector<ToothGeometry> geometries;
   std::vector<Tooth> teeth;
-  std::vector<RunoutEdge> runout;  ///< of parallel axes
-  std::vector<TiltedEdge> tilted;  ///< of others
-  std::vector<ReachEdge> reaches;  ///< instead, of unlike helix angles
+  RunoutEdges runout;
 };
 
 /// What of the geometry depends on the arcs.
@@ -300,7 +269,7 @@ void ForceSampler::sample(const Coefficients& coefficients, const Feed& feed, st
 
 void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, const Feed& feed,
                                 std::int64_t first, std::int64_t count, ForceSamples& out) const {
-  geometry_->takes_runout_edges(feed) || is_linear(feed)
+  geometry_->runout.serve(feed) || is_linear(feed)
       ? sample_prepared(flute, coefficients, feed, first, count, out)
       : sample_nonlinear(flute, coefficients, feed, first, count, out);
 }
@@ -308,20 +277,10 @@ void ForceSampler::sample_flute(int flute, const Coefficients& coefficients, con
 void ForceSampler::add_to(SamplingRun& run, int flute, const Coefficients& coefficients,
                           const Feed& feed) const {
   const Geometry& g = *geometry_;
-  if (g.takes_runout_edges(feed)) {
+  if (g.runout.serve(feed)) {
     const int from = flute == kAllFlutes ? 0 : flute;
     const int to = flute == kAllFlutes ? g.edges->cutter().flutes - 1 : flute;
-    for (const RunoutEdge& edge : g.runout) {
-      edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
-    }
-    for (const TiltedEdge& edge : g.tilted) {
-      edge.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
-    }
-    for (const ReachEdge& edge : g.reaches) {
-      if (edge.flute() >= from && edge.flute() <= to) {
-        edge.add_to(run, coefficients, feed, engaged_->arcs);
-      }
-    }
+    g.runout.add_to(run, *g.edges, from, to, coefficients, feed, engaged_->arcs);
     return;
   }
   Loads load = loads(coefficients, feed);
